@@ -1,15 +1,16 @@
-// OpenBLAS, in programs that have loaded it: one thread of it, and memory that it does not wait for.
+// Control of OpenBLAS in programs that load it: one thread, and memory reserved in advance.
 #pragma once
 
 namespace tacipc {
 
-/// OpenBLAS starts a thread per core as it is loaded. No stage wants them, and where memory is short they try for ever
-/// to get some, so that the program cannot end. If there are any, this starts the program anew without them and does
-/// not return. `argv`: of main; other arguments change nothing.
+/// Restarts the program without OpenBLAS's worker threads, if there are any, and does not return then. OpenBLAS starts
+/// a thread per core when it is loaded. No stage needs them, and if memory is short, they retry forever, so that the
+/// program cannot end.
+/// \param argv arguments of main(); with other arguments the call does nothing
 void leave_blas_threads(char** argv);
 
-/// Takes the memory that OpenBLAS needs for as many calls at a time, since a call would try for ever to get it.
-/// \throw std::bad_alloc if it is not to be had
+/// Reserves the memory that OpenBLAS needs for `calls` simultaneous calls, because a call would retry forever.
+/// \throw std::bad_alloc if the memory is not available
 void reserve_blas_memory(int calls);
 
 }  // namespace tacipc

@@ -1,4 +1,4 @@
-// Files written atomically: a killed program leaves the old one or the new one, and half of neither.
+// Writes files atomically: if the program is killed, the old or the new file remains, never a partial one.
 #pragma once
 
 #include <filesystem>
@@ -8,15 +8,18 @@
 
 namespace tacipc {
 
-/// Writes the bytes behind a line with their length and XXH3 checksum into a file beside, then renames it into place:
-/// a process that dies meanwhile leaves the old file or none. \throw DataError if it cannot be written.
+/// Writes bytes, after a line with their length and XXH3 checksum, to a file next to `path`, then renames it: if the
+/// process dies meanwhile, the old file or none remains.
+/// \throw DataError if the file cannot be written
 void write_checked_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// The bytes that write_checked_file was given; nothing if there is no such file, or it is not whole.
+/// Reads the bytes that write_checked_file() wrote; nothing if there is no such file or it is incomplete.
 std::optional<std::string> read_checked_file(const std::filesystem::path& path);
 
-/// Makes `path` hold the text, whole or not at all even after a power failure; a file that holds it already keeps its
-/// time. Returns whether it wrote. \throw DataError if it cannot be written.
+/// Makes `path` hold the text, completely or not at all even after a power failure. A file that already holds it keeps
+/// its modification time.
+/// \return whether the file was written
+/// \throw DataError if it cannot be written
 bool replace_if_changed(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace tacipc

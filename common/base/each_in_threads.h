@@ -1,4 +1,4 @@
-// Independent work in threads, with errors as of one thread.
+// Runs independent work in threads, with errors as in a single thread.
 #pragma once
 
 #include <tbb/parallel_for.h>
@@ -9,8 +9,8 @@
 
 namespace tacipc {
 
-/// Calls `work` for each number below `count`, in as many threads as there may be. Where several fail, the error of the
-/// first number is thrown, whichever thread was first.
+/// Calls `work` for each number below `count`, in parallel. If several calls fail, the error of the smallest number is
+/// thrown, whichever thread was first.
 template <typename Work>
 void each_in_threads(std::size_t count, Work&& work) {
   std::vector<std::exception_ptr> failed(count);

@@ -10,13 +10,13 @@
 
 namespace tacipc {
 
-/// Wrong flags (exit 2).
+/// Wrong flags (exit code 2).
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Faults of one configuration file, each `file:line:column: path.key: reason` (exit 2).
+/// Errors in one configuration file, each `file:line:column: path.key: reason` (exit code 2).
 class ConfigError : public std::runtime_error {
  public:
   explicit ConfigError(std::vector<std::string> faults);
@@ -26,7 +26,7 @@ class ConfigError : public std::runtime_error {
   std::vector<std::string> faults_;
 };
 
-/// An input file or a mesh is not what it must be, or an output cannot be written (exit 1).
+/// An input file or mesh is not valid, or an output cannot be written (exit code 1).
 class DataError : public std::runtime_error {
  public:
   explicit DataError(const std::string& message) : std::runtime_error(message) {}
@@ -35,7 +35,7 @@ class DataError : public std::runtime_error {
       : std::runtime_error(fmt::format(format, std::forward<Args>(args)...)) {}
 };
 
-/// The numerics failed: not converged, intersected, inverted (exit 1).
+/// The numerical method failed: not converged, intersected, inverted (exit code 1).
 class SolverError : public std::runtime_error {
  public:
   explicit SolverError(const std::string& message) : std::runtime_error(message) {}
@@ -44,7 +44,7 @@ class SolverError : public std::runtime_error {
       : std::runtime_error(fmt::format(format, std::forward<Args>(args)...)) {}
 };
 
-/// A number of a frame that misses its limit, both in the unit that the check's name stands for.
+/// A number of a frame that misses its limit; both in the unit of the check.
 struct Miss {
   int frame = 0;
   std::string check;
@@ -52,7 +52,7 @@ struct Miss {
   double limit = 0.0;
 };
 
-/// A frame was solved but does not pass its checks (exit 1); the failure file repeats the numbers.
+/// A frame was solved but does not pass its checks (exit code 1). The failure file repeats the numbers.
 class VerdictError : public SolverError {
  public:
   VerdictError(Miss miss, const std::string& message) : SolverError(message), miss_(std::move(miss)) {}

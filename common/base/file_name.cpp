@@ -8,7 +8,7 @@
 namespace tacipc {
 namespace {
 
-constexpr std::size_t kLongest = 200;  // bytes: file systems have 255, and ours append an ending
+constexpr std::size_t kLongest = 200;  // bytes: file systems allow 255, and the project's programs append a suffix
 
 bool is_plain(char c) {
   const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');

@@ -51,7 +51,7 @@ std::string file_hash(const std::filesystem::path& path) {
 void for_each_part(const std::filesystem::path& path, const std::function<void(std::string_view)>& use) {
   const std::filesystem::file_status status = std::filesystem::status(path);
   if (std::filesystem::is_directory(status)) throw DataError("{}: is a folder, expected a file", path.string());
-  // Every input is read twice, once for its hash. The second time a pipe is empty; a device may never end.
+  // Every input is read twice, once for its hash. A pipe is empty the second time; a device may never end.
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     throw DataError("{}: is a pipe or a device, expected a file", path.string());
   const File file(std::fopen(path.c_str(), "rb"));
@@ -78,8 +78,8 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
 }
 
 void flush_to_disk(const std::vector<std::filesystem::path>& paths) {
-  // All are started before any is waited for: file systems with a journal then write it once and not once for each.
-  // What does not support this (a folder, some network) fails here and is waited for below.
+  // Starts all before waiting for any, so that file systems with a journal write it once instead of once per file.
+  // Paths that do not support this (a folder, some network file systems) fail here and are waited for below.
   if (paths.size() > 1)
     for (const auto& path : paths) ::sync_file_range(Descriptor(path).number(), 0, 0, SYNC_FILE_RANGE_WRITE);
   for (const auto& path : paths)

@@ -1,4 +1,4 @@
-// Denormal numbers, which no result needs and every processor is slow with.
+// Turns denormal numbers off: no result needs them, and every processor is slow with them.
 #pragma once
 
 #include <pmmintrin.h>
@@ -6,7 +6,7 @@
 
 namespace tacipc {
 
-/// While it lives, denormal numbers count as zero on this thread.
+/// While this object lives, denormal numbers count as zero on this thread.
 class FlushDenormals {
  public:
   FlushDenormals() : before_(_mm_getcsr()) {

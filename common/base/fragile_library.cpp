@@ -20,18 +20,18 @@
 namespace tacipc {
 namespace {
 
-constexpr unsigned kMostSeconds = 60;            // of one call
-constexpr rlim_t kMostMemory = rlim_t{2} << 30;  // bytes that one call may take
+constexpr unsigned kMostSeconds = 60;            // limit of one call
+constexpr rlim_t kMostMemory = rlim_t{2} << 30;  // memory that one call may take, bytes
 
-/// What a child did last, in memory that its parent sees.
+/// Last action of a child, in memory that its parent shares.
 struct LastCall {
   std::array<char, 64> library{};
   std::array<char, 4096> file{};
   bool ended = false;
 };
-LastCall* last_call = nullptr;  // of a child; null elsewhere
-int said = -1, nowhere = -1;    // of a child: standard error, and where a library's own last words go
-rlimit memory{};                // of a child outside of calls
+LastCall* last_call = nullptr;  // set in a child; null elsewhere
+int said = -1, nowhere = -1;    // in a child: standard error, and a sink for a library's own last message
+rlimit memory{};                // in a child: its limit outside calls
 
 void say_to(int file) {
   if (file >= 0) dup2(file, STDERR_FILENO);
@@ -43,21 +43,22 @@ void copy_text(const std::string& text, std::span<char> to) {
   to[size] = '\0';
 }
 
-/// Lets no more than kMostMemory be taken from here on.
+/// Limits further memory to kMostMemory.
 void limit_memory() {
   std::array<char, 128> text{};
   const int file = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
   if (file < 0) return;
   const bool is_read = read(file, text.data(), text.size() - 1) > 0;
   close(file);
-  unsigned long pages = 0;  // of data and stack
+  unsigned long pages = 0;  // data and stack
   if (!is_read || std::sscanf(text.data(), "%*u %*u %*u %*u %*u %lu", &pages) != 1) return;
   rlimit limit = memory;
   limit.rlim_cur = std::min(memory.rlim_cur, pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + kMostMemory);
   setrlimit(RLIMIT_DATA, &limit);
 }
 
-/// "double free" is not said beside our own message. What sanitizers say is wanted, and they reserve terabytes.
+/// Prepares a child. A library's "double free" is suppressed in favour of this project's message. Messages of
+/// sanitizers are kept, and their memory is not limited, because they reserve terabytes.
 void begin_child() {
 #if !defined(__SANITIZE_ADDRESS__)
   getrlimit(RLIMIT_DATA, &memory);
@@ -71,6 +72,7 @@ bool is_crash(int signal) {
   return std::ranges::find(kCrashes, signal) != kCrashes.end();
 }
 
+/// Returns the message for a crash.
 /// \pre the signal is a crash
 std::string crash_text(int signal, const LastCall& call) {
   const std::string file = call.file.data(), library = call.library.data();
@@ -111,7 +113,7 @@ std::optional<ChildEnd> continue_in_child() {
   if (child < 0) return ChildEnd{.crash = fmt::format("no child process: {}", std::strerror(errno))};
   if (child == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(1);  // it ended before it could be heard of
+    if (getppid() != parent) _exit(1);  // the parent ended before the signal was set up
     last_call = call;
     begin_child();
     return std::nullopt;

@@ -1,8 +1,9 @@
-// What the processor at hand can do, in the levels that compilers know.
+// Instruction set of the current processor, as a level that compilers use.
 #pragma once
 
 namespace tacipc {
 
+/// Returns x86-64, x86-64-v2, x86-64-v3 or x86-64-v4.
 inline const char* instruction_set() {
   __builtin_cpu_init();
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq"))

@@ -22,14 +22,15 @@ std::string quoted(const std::string& text) {
   return out;
 }
 
-/// With a point or an exponent, so that readers that tell whole numbers from others have one type for all.
+/// Returns a number with a point or an exponent, so that readers that distinguish whole numbers from others use one
+/// type.
 std::string real(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
 }
 
-/// Whether a list fits on a line: no maps in it, however deep.
+/// Returns whether a list fits on a line: it contains no map at any depth.
 bool holds_no_map(const Value& value) {
   if (std::holds_alternative<Value::Map>(value.data())) return false;
   if (const auto* list = std::get_if<Value::List>(&value.data())) {

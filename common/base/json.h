@@ -1,4 +1,4 @@
-// Values as JSON text (RFC 8259), for readers outside.
+// Writes values as JSON text (RFC 8259), for programs outside this project.
 #pragma once
 
 #include <string>
@@ -7,8 +7,9 @@
 
 namespace tacipc {
 
-/// JSON with two blanks of indentation, lists without maps on one line, numbers in the shortest form that reads back to
-/// the same bits: 0.0 for a double, 0 for a whole number. Numbers that are not finite become null: JSON has none.
+/// Returns JSON indented by two blanks, lists without maps on one line, numbers in the shortest form that reads back to
+/// the same bits: 0.0 for a double, 0 for a whole number. Numbers that are not finite become null, because JSON has
+/// none.
 std::string to_json(const Value& value);
 
 }  // namespace tacipc

@@ -20,7 +20,7 @@ std::string stage_name;
 bool progress_shown = false;
 std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
 
-/// Unlike fmt::print it does not throw where nothing can be written, since the message may say just that.
+/// Prints without throwing (unlike fmt::print) if nothing can be written, since the message may report just that.
 void say(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 void end_progress_line() {
@@ -42,7 +42,7 @@ void open_log_file(const std::string& path) {
   file = std::make_shared<spdlog::logger>(stage_name, std::make_shared<spdlog::sinks::basic_file_sink_st>(path, true));
   file->set_pattern("%Y-%m-%d %H:%M:%S.%e %l: %v");
   file->set_level(spdlog::level::debug);
-  file->set_error_handler([](const std::string&) {});  // a full disk has a message of its own
+  file->set_error_handler([](const std::string&) {});  // a full disk is reported elsewhere
   file->flush_on(spdlog::level::info);
 }
 
@@ -57,7 +57,7 @@ void log_message(int level, const std::string& message) {
 void log_error(const std::string& message) {
   end_progress_line();
   const std::string text = printable(message);
-  // Straight to the terminal: an error is logged at any level.
+  // Printed directly, because an error is logged at any level setting.
   say(text + "\n");
   if (file) file->error(text);
 }

@@ -1,4 +1,4 @@
-// From SI to the units of packed datasets: mm, N, N mm, degrees.
+// Conversion from SI to the units of packed datasets: mm, N, N mm, degrees.
 #pragma once
 
 #include <numbers>

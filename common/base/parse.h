@@ -1,4 +1,4 @@
-// Numbers as texts of files and flags have them.
+// Parses numbers from texts of files and flags.
 #pragma once
 
 #include <charconv>
@@ -7,7 +7,7 @@
 
 namespace tacipc {
 
-/// The number that a whole text stands for; none if it is no number of this type.
+/// Returns the number that the whole text denotes; nothing if it is not a number of this type.
 template <typename Number>
 std::optional<Number> parse_number(std::string_view text) {
   Number value{};

@@ -10,7 +10,7 @@ namespace {
 bool is_control(std::string_view character) {
   const auto first = static_cast<unsigned char>(character.front());
   if (character.size() == 1) return first < 0x20 || first == 0x7f;
-  // U+0080 to U+009F, which some terminals obey as they do an escape sequence.
+  // U+0080 to U+009F: some terminals treat them as escape sequences.
   return first == 0xc2 && static_cast<unsigned char>(character[1]) < 0xa0;
 }
 
@@ -41,7 +41,7 @@ std::size_t utf8_length(std::string_view text) {
   if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
   for (std::size_t i = 1; i < length; ++i)
     if ((at(i) & 0xc0) != 0x80) return 0;
-  // Longer than need be, a surrogate, or beyond U+10FFFF.
+  // Overlong encodings, surrogates, and values beyond U+10FFFF.
   if ((first == 0xe0 && at(1) < 0xa0) || (first == 0xed && at(1) > 0x9f) || (first == 0xf0 && at(1) < 0x90) ||
       (first == 0xf4 && at(1) > 0x8f))
     return 0;

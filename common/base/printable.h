@@ -1,4 +1,4 @@
-// Text of unknown origin in messages: control bytes and what is not UTF-8 are shown escaped, long texts are cut.
+// Makes text of unknown origin safe for messages: control bytes and invalid UTF-8 are escaped, long texts are cut.
 #pragma once
 
 #include <cstddef>
@@ -7,17 +7,18 @@
 
 namespace tacipc {
 
-/// Bytes of the character that a text begins with; 0 where these bytes are no UTF-8, or there are none.
+/// Returns the number of bytes of the first character; 0 if the bytes are not valid UTF-8, or the text is empty.
 std::size_t utf8_length(std::string_view text);
 
+/// Returns whether the bytes are valid UTF-8.
 bool is_utf8(std::string_view text);
 
-/// Text that does to a terminal nothing but print: control characters but tab and the end of a line, and bytes
-/// that are no UTF-8, become \x1b and the like.
+/// Returns text that a terminal only prints: control characters except tab and line end, and bytes that are not UTF-8,
+/// become \x1b and the like.
 std::string printable(std::string_view text);
 
-/// A value as a message quotes it: on one line, and where that takes more than `at_most` bytes only the beginning with
-/// the size of all.
+/// Returns a value as messages quote it: on one line, and if longer than `at_most` bytes, only its beginning with the
+/// total size.
 std::string excerpt(std::string_view text, std::size_t at_most = 80);
 
 }  // namespace tacipc

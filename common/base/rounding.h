@@ -1,4 +1,4 @@
-// Numbers rounded to a power of two: they keep their type and unit, and what compresses badly is gone.
+// Rounds numbers to a power of two, without changing type or unit, so that they compress well.
 #pragma once
 
 #include <cmath>
@@ -6,8 +6,8 @@
 
 namespace tacipc {
 
-/// Moves each value to the nearest multiple of 2^exponent, of two to the even one: by half a step at most. NaN and
-/// infinity stay. Beyond 2^24 steps floats are coarser than a step, and stay too.
+/// Rounds each value to the nearest multiple of 2^exponent, ties to even. NaN and infinity stay. Floats beyond 2^24
+/// steps are coarser than a step, and stay unchanged.
 template <typename T>
 void round_to(std::vector<T>& values, int exponent) {
   const T step = std::ldexp(T{1}, exponent), steps = std::ldexp(T{1}, -exponent);

@@ -6,15 +6,15 @@
 namespace tacipc {
 namespace {
 
-/// A primitive polynomial x^s + a_1 x^(s−1) + … + a_(s−1) x + 1 over two elements, the bits of `a` its inner
-/// coefficients, and the first s direction numbers m_k (odd, below 2^k).
+/// A primitive polynomial x^s + a_1 x^(s−1) + … + a_(s−1) x + 1 over two elements, with its inner coefficients as the
+/// bits of `a`, and the first s direction numbers m_k (odd, below 2^k).
 struct Polynomial {
   int degree;
   unsigned a;
   std::array<unsigned, 6> m;
 };
 
-/// Of dimensions 1, 2, …; dimension 0 has v_k = 2^−k. [Joe and Kuo 2008, table new-joe-kuo-6]
+/// Polynomials of dimensions 1, 2, …; dimension 0 has v_k = 2^−k. [Joe and Kuo 2008, table new-joe-kuo-6]
 constexpr std::array<Polynomial, kSobolDimensions - 1> kPolynomials{{{1, 0, {1}},
                                                                      {2, 1, {1, 3}},
                                                                      {3, 1, {1, 3, 1}},
@@ -34,8 +34,8 @@ constexpr std::array<Polynomial, kSobolDimensions - 1> kPolynomials{{{1, 0, {1}}
 constexpr int kBits = 32;
 using Directions = std::array<std::uint32_t, kBits>;
 
-/// v_k = m_k / 2^k as 32 bits, continued by
-/// v_k = a_1 v_(k−1) ⊕ … ⊕ a_(s−1) v_(k−s+1) ⊕ v_(k−s) ⊕ v_(k−s) / 2^s.
+/// Returns v_k = m_k / 2^k as 32 bits, continued by
+///   v_k = a_1 v_(k−1) ⊕ … ⊕ a_(s−1) v_(k−s+1) ⊕ v_(k−s) ⊕ v_(k−s) / 2^s.
 constexpr Directions directions_of(const Polynomial& p) {
   Directions v{};
   for (int k = 0; k < kBits; ++k) {

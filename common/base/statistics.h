@@ -1,4 +1,4 @@
-// Statistics of a list of numbers: mean, deviation, median, quantile.
+// Statistics of a list of numbers: mean, standard deviation, median, quantile.
 #pragma once
 
 #include <algorithm>
@@ -10,12 +10,15 @@
 
 namespace tacipc {
 
+/// Mean and standard deviation.
 struct MeanDeviation {
   double mean = 0.0;
-  double deviation = 0.0;  // over n, not n − 1
+  double deviation = 0.0;  // standard deviation over n, not n − 1
 };
 
-/// Where a number is infinite (PSNR of equal images) the mean is too, and the deviation is NaN. \pre not empty
+/// Returns mean and standard deviation. If a number is infinite (PSNR of equal images), the mean is infinite and the
+/// deviation NaN.
+/// \pre not empty
 inline MeanDeviation mean_and_deviation(const std::vector<double>& values) {
   assert(!values.empty());
   const auto n = static_cast<double>(values.size());
@@ -26,7 +29,8 @@ inline MeanDeviation mean_and_deviation(const std::vector<double>& values) {
   return {.mean = mean, .deviation = std::sqrt(squares / n)};
 }
 
-/// The value at place `rank` of the sorted values, counted from 0. \pre rank < number of values
+/// Returns the value with index `rank` of the sorted values.
+/// \pre rank < number of values
 template <typename T>
 T ranked(std::vector<T> values, std::size_t rank) {
   assert(rank < values.size());
@@ -35,7 +39,8 @@ T ranked(std::vector<T> values, std::size_t rank) {
   return *place;
 }
 
-/// The middle value, of an even number of values the mean of the two in the middle. \pre not empty
+/// Returns the middle value; for an even number of values, the mean of the middle two.
+/// \pre not empty
 template <typename T>
 double median(std::vector<T> values) {
   assert(!values.empty());
@@ -43,16 +48,17 @@ double median(std::vector<T> values) {
   return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
 }
 
-/// The middle value, of an even number of values the larger of the two in the middle: always one of them. \pre not
-/// empty
+/// Returns the middle value; for an even number of values, the larger of the middle two, so always one of the values.
+/// \pre not empty
 template <typename T>
 T upper_median(std::vector<T> values) {
   const std::size_t middle = values.size() / 2;
   return ranked(std::move(values), middle);
 }
 
-/// The value below which the part p of the values lies, between two of them in proportion: at (n − 1) p of the sorted
-/// values, counted from 0 (type 7 of Hyndman and Fan 1996). \pre values are sorted, at least one; 0 ≤ p ≤ 1
+/// Returns the quantile p by linear interpolation between sorted values, at index (n − 1) p (type 7 of Hyndman and Fan
+/// 1996).
+/// \pre values are sorted, at least one; 0 ≤ p ≤ 1
 inline double quantile(const std::vector<double>& sorted, double p) {
   assert(!sorted.empty() && 0.0 <= p && p <= 1.0);
   const double at = p * static_cast<double>(sorted.size() - 1);
@@ -62,7 +68,8 @@ inline double quantile(const std::vector<double>& sorted, double p) {
   return (1.0 - part) * sorted[below] + part * sorted[below + 1];
 }
 
-/// The largest value that is not above that quantile: at place ⌊(n − 1) p⌋ of the sorted values, in any order here.
+/// Returns the largest value that is not above the quantile p: index ⌊(n − 1) p⌋ of the sorted values. The input may
+/// have any order.
 /// \pre not empty, 0 ≤ p ≤ 1
 inline double lower_quantile(std::vector<double> values, double p) {
   assert(!values.empty() && 0.0 <= p && p <= 1.0);

@@ -114,7 +114,7 @@ std::string_view plain_text(std::string_view bytes, const std::string& name) {
     throw DataError("{}: is {} text; save it as UTF-8", name, encoding);
   };
   if (bytes.starts_with("\xFF\xFE\0\0"sv) || bytes.starts_with("\0\0\xFE\xFF"sv)) refuse("UTF-32");
-  // Without a mark, letters of ASCII with a zero before or after each of them, as no other text has.
+  // Without a mark: ASCII letters with a zero before or after each, which occurs in no other text.
   const auto zeros_at = [&](std::size_t first) {
     return bytes.size() >= 4 && bytes[first] == '\0' && bytes[first + 2] == '\0' && bytes[1 - first] != '\0' &&
            bytes[3 - first] != '\0';

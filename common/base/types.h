@@ -1,4 +1,4 @@
-// Array types every stage shares: one row per vertex, triangle or tetrahedron.
+// Array types that all stages share: one row per vertex, triangle or tetrahedron.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@ using Vector3 = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
 using Matrix4 = Eigen::Matrix4d;
 
-/// #V × 3, row i is vertex i, metres unless the name says otherwise.
+/// #V × 3, row i is vertex i, in metres unless a name states another unit.
 using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// #F × 3 vertex indices, counter-clockwise seen from outside.
 using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;

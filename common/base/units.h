@@ -1,4 +1,4 @@
-// Units that configurations, pages and packed data use beside SI.
+// Units of configurations, pages and packed data, in SI.
 #pragma once
 
 #include <numbers>

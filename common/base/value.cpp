@@ -12,7 +12,7 @@ std::string number_text(double value) {
   if (std::isnan(value)) return ".nan";
   if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
   std::string text = fmt::format("{}", value);
-  // A mantissa with a point keeps YAML 1.1 readers from taking 1e-05 for a string.
+  // A mantissa with a point keeps YAML 1.1 readers from reading 1e-05 as a string.
   if (const auto e = text.find('e'); e != std::string::npos && text.find('.') == std::string::npos)
     text.insert(e, ".0");
   return text;
@@ -25,7 +25,7 @@ struct Emit {
   void operator()(std::int64_t value) const { out << value; }
   void operator()(double value) const { out << number_text(value); }
   void operator()(const std::string& value) const {
-    // yaml-cpp would write it plain, and read it back as a line's end.
+    // yaml-cpp would write it plain, and read it back as a line end.
     if (value.find('\r') != std::string::npos) out << YAML::DoubleQuoted;
     out << value;
   }

@@ -1,4 +1,4 @@
-// An ordered tree of plain values: what records, summaries and resolved configurations are made of.
+// An ordered tree of plain values, for records, summaries and resolved configurations.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,8 @@ class Value {
   Value(Map value) : data_(std::move(value)) {}
   Value(const std::vector<double>& values) : data_(List(values.begin(), values.end())) {}
 
-  /// The map behind this value; \pre it is one.
+  /// Returns the map in this value.
+  /// \pre the value is a map
   Map& map() { return std::get<Map>(data_); }
   const Map& map() const { return std::get<Map>(data_); }
   /// Sets or replaces a key of a map.
@@ -41,7 +42,7 @@ class Value {
   std::variant<bool, std::int64_t, double, std::string, List, Map> data_;
 };
 
-/// YAML text, one key a line, numbers in the shortest form that reads back to the same bits.
+/// Returns YAML text, one key per line, numbers in the shortest form that reads back to the same bits.
 std::string to_yaml(const Value& value);
 
 }  // namespace tacipc

@@ -1,4 +1,4 @@
-// Contacts seen in photographs of ball presses, and their labels made by hand.
+// Hand-made labels of contacts in photographs of ball presses.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace tacipc {
 
-/// Contact in one photograph of a ball: centre (column, row of a pixel, its middle) and radius.
+/// Contact in one photograph of a ball: centre (column and row; a pixel's middle is a whole number) and radius.
 struct BallLabel {
   std::string image;  // file name
   double x_px = 0.0;
@@ -15,8 +15,8 @@ struct BallLabel {
   double radius_px = 0.0;
 };
 
-/// Lines `image.png (x, y) radius`; blank lines do not count. \throw DataError `FILE:LINE: …` for any other line, and
-/// for a file without labels.
+/// Reads lines `image.png (x, y) radius`; blank lines are ignored.
+/// \throw DataError `FILE:LINE: …` for any other line, and for a file without labels
 std::vector<BallLabel> read_labels(const std::filesystem::path& path);
 
 }  // namespace tacipc

@@ -32,10 +32,10 @@ double BallPress::depth_of_contact(double rim_m, const std::string& what) const 
 namespace {
 
 struct Ring {
-  double radius_m, gap_m;  // mean over the ring's vertices
+  double radius_m, gap_m;  // means over the ring's vertices
 };
 
-/// Rings of front vertices about the axis from the middle outwards, those without vertices left out.
+/// Returns rings of front vertices about the axis from the middle outwards, without empty rings.
 std::vector<Ring> gap_profile(const Positions& front, double depth_m, double ball_radius_m) {
   constexpr double kRingWidthM = 1e-4;
   const auto rings = static_cast<std::size_t>(0.95 * ball_radius_m / kRingWidthM);

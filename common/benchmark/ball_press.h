@@ -1,4 +1,4 @@
-// The membrane under a ball at any depth, from one simulated press.
+// Membrane under a ball at any depth, interpolated from one simulated press run.
 #pragma once
 
 #include <filesystem>
@@ -9,35 +9,37 @@
 
 namespace tacipc {
 
-/// Frames of a press straight down over the origin of S by a ball.
+/// Frames of a ball pressed straight down over the origin of S.
 struct BallPress {
-  double radius_m = 0.0;          // of the ball
-  Triangles front;                // over the rows of every frame
-  std::vector<double> depth_m;    // of the ball's lowest point below the undeformed front, ascending from frame 0
+  double radius_m = 0.0;          // radius of the ball
+  Triangles front;                // triangles over the rows of every frame
+  std::vector<double> depth_m;    // depth of the ball's lowest point below the undeformed front, ascending from frame 0
   std::vector<Positions> frames;  // front vertices, m
-  std::vector<double> contact_m;  // radius of the rim, ascending
+  std::vector<double> contact_m;  // radius of the contact rim, ascending
 
-  /// The front at a depth between the first and the last: frames on either side, mixed linearly.
+  /// Returns the front at a depth between the first and the last, by linear interpolation between frames.
   /// \throw DataError beyond the last frame
   Positions at_depth(double depth) const;
-  /// Depth at which the rim has this radius. \throw DataError, naming `what`, beyond the deepest frame
+  /// Returns the depth at which the rim has this radius.
+  /// \throw DataError, naming `what`, beyond the deepest frame
   double depth_of_contact(double rim_m, const std::string& what) const;
-  /// The rim is where the gap is this wide: sets contact_m.
+  /// Sets contact_m, taking for the rim the radius at which the gap has this width.
   void set_rim(double gap_m);
 };
 
-/// Where the gap between ball and membrane first exceeds `gap_m`: the mean gap over rings of front vertices, 0.1 mm
-/// wide, interpolated. 0 without contact.
+/// Returns the radius at which the gap between ball and membrane first exceeds `gap_m`, by interpolation of mean gaps
+/// over rings of front vertices, 0.1 mm wide. 0 without contact.
 double contact_radius(const Positions& front, double depth_m, double ball_radius_m, double gap_m);
-/// The gap at that distance from the ball's axis, over the same rings. \pre radius_m < 0.95 ball_radius_m
+/// Returns the gap at a distance from the ball's axis, over the same rings.
+/// \pre radius_m < 0.95 ball_radius_m
 double gap_at_radius(const Positions& front, double depth_m, double ball_radius_m, double radius_m);
 
-/// Where the press puts a ball, whose own frame has its origin in its centre, over (x, y) at a depth: half a turn about
-/// x, so that its +z side faces the gel.
+/// Returns the pose that `press` gives to a ball over (x, y) at a depth; the ball's frame has its origin in the centre.
+/// It is rotated by 180° about x, so that its +z side faces the gel.
 Matrix4 ball_pose(double x_m, double y_m, double depth_m, double ball_radius_m);
 
 /// Reads positions.npy and object_pose.npy of a press folder. The object's frame has its origin in the ball's centre.
-/// \throw DataError if the files do not fit the gel, or the ball does not go straight down over the origin
+/// \throw DataError if the files do not fit the gel, or the ball does not move straight down over the origin
 BallPress read_ball_press(const std::filesystem::path& press, const std::filesystem::path& gel, double ball_radius_m,
                           double gap_m);
 

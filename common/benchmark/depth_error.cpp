@@ -32,7 +32,7 @@ struct Sums {
   }
 };
 
-/// Squared slope at a pixel, m² per pixel²: neighbours that are there and known.
+/// Returns the squared slope at a pixel, m² per pixel², from neighbours that exist and are not NaN.
 double squared_slope(const FloatImage& map, int x, int y) {
   double sum = 0.0;
   for (const auto& [u, v] : {std::pair{x + 1, y}, std::pair{x, y + 1}}) {
@@ -43,12 +43,12 @@ double squared_slope(const FloatImage& map, int x, int y) {
   return sum;
 }
 
-/// Pixels of a mask and those at most `reach` columns and rows away from one.
+/// Returns the pixels of a mask and those at most `reach` columns and rows away from it.
 std::vector<bool> grown(const std::vector<bool>& mask, int width, int height, int reach) {
   const auto along = [reach](const std::vector<bool>& in, int lines, int line_step, int length, int step) {
     std::vector<bool> out(in.size(), false);
     for (int line = 0; line < lines; ++line) {
-      int last = -reach - 1;  // the last pixel of the mask, forwards, then backwards
+      int last = -reach - 1;  // last pixel of the mask, in forward, then backward direction
       const auto at = [&](int k) { return static_cast<std::size_t>(line * line_step + k * step); };
       for (int k = 0; k < length; ++k) {
         if (in[at(k)]) last = k;

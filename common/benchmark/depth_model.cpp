@@ -18,17 +18,17 @@ namespace tacipc {
 namespace {
 
 constexpr const char* kProducer = "tacipc depthnet";
-constexpr int kOperatorSet = 11, kFormat = 6;  // ONNX 1.6, of 2019; OpenCV 4.6 and all later runtimes read it
-constexpr int kRows = 2, kColumns = 3;         // axes
+constexpr int kOperatorSet = 11, kFormat = 6;  // ONNX 1.6 (2019), which OpenCV 4.6 and all later runtimes read
+constexpr int kRows = 2, kColumns = 3;         // indices of axes
 constexpr std::int64_t kLargestSide = 1 << 15;
-constexpr std::uintmax_t kLargestFile = (std::uintmax_t{1} << 31) - 1;  // bytes: protobuf's own limit
-// Metadata: what the images of the training looked like; the SHA-256 of the model without this entry, the last one.
+constexpr std::uintmax_t kLargestFile = (std::uintmax_t{1} << 31) - 1;  // bytes: limit of protobuf
+// Metadata: statistics of the training images; SHA-256 of the model without this entry, which is the last one.
 constexpr const char *kTrainedLook = "trained_look", *kSha256 = "sha256";
 
 int up_to_multiple(int size, int of) { return (size + of - 1) / of * of; }
 
-/// The network as a graph, its weights with their shapes but without their numbers. Each step gives a new tensor; `x_`
-/// is the last one's name.
+/// Writes the network as a graph: its weights have shapes but no numbers. Each step makes a new tensor; `x_` is the
+/// name of the last one.
 class GraphWriter : public NetworkWriter {
  public:
   GraphWriter(const NetworkConfig& config, int rows, int columns)
@@ -117,7 +117,7 @@ class GraphWriter : public NetworkWriter {
     node.add_output(x_);
     return x_;
   }
-  /// Of the last step.
+  /// Adds an attribute to the last step.
   onnx::AttributeProto& attribute(const char* name) {
     onnx::AttributeProto& added = *graph().mutable_node(graph().node_size() - 1)->add_attribute();
     added.set_name(name);
@@ -176,7 +176,7 @@ class GraphWriter : public NetworkWriter {
   void keep_first(int axis, int size, int wanted) {
     if (wanted < size) slice(axis, 0, wanted);
   }
-  /// As Pad with the mode `edge` does, which OpenCV 4.6 does not know.
+  /// Repeats the last row or column like Pad with mode `edge`, which OpenCV 4.6 does not support.
   void repeat_last(int axis, int size, int wanted) {
     if (wanted == size) return;
     const std::string all = x_;
@@ -202,7 +202,7 @@ class GraphWriter : public NetworkWriter {
   int convolutions_ = 0;
 };
 
-/// Whether a constant of our graphs is a convolution's weights, the only ones whose names begin so.
+/// Returns whether a constant of the graph is a convolution's weights; only their names begin with w.
 bool is_weights(const onnx::TensorProto& constant) { return constant.name().starts_with('w'); }
 
 void add_metadata(onnx::ModelProto& model, const char* key, const std::string& value) {
@@ -211,7 +211,7 @@ void add_metadata(onnx::ModelProto& model, const char* key, const std::string& v
   entry.set_value(value);
 }
 
-/// The last entry of the metadata, which is removed, if it has this key.
+/// Removes and returns the last entry of the metadata, if it has this key.
 std::optional<std::string> take_metadata(onnx::ModelProto& model, const char* key) {
   const int last = model.metadata_props_size() - 1;
   if (last < 0 || model.metadata_props(last).key() != key) return std::nullopt;
@@ -220,7 +220,7 @@ std::optional<std::string> take_metadata(onnx::ModelProto& model, const char* ke
   return value;
 }
 
-/// What the graph must be built from to be this one; nothing if there is no such network.
+/// Returns the network whose graph this may be; nothing if there is no such network.
 std::optional<DepthModel> plan_of(const onnx::GraphProto& graph) {
   std::int64_t channels = 0, convolutions = 0, reduction = 1;
   for (const onnx::TensorProto& constant : graph.initializer()) {
@@ -250,7 +250,7 @@ std::optional<DepthModel> plan_of(const onnx::GraphProto& graph) {
                     .look = {}};
 }
 
-/// Takes the weights' numbers out of the graph, in its order.
+/// Moves the weights' numbers out of the graph, in its order.
 std::vector<std::string> take_weights(onnx::GraphProto& graph) {
   std::vector<std::string> numbers;
   for (onnx::TensorProto& constant : *graph.mutable_initializer()) {

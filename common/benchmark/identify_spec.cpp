@@ -18,7 +18,7 @@ std::vector<double> ascending(ConfigReader& in, const std::string& key, std::siz
   return values;
 }
 
-/// Values outside which a parameter has no meaning.
+/// Returns the range in which a parameter has a meaning.
 Range natural_range(const std::string& name) {
   if (name == kPoisson) return {.low = 0.0, .high = 0.5, .open_low = true, .open_high = true};
   if (name == kModulus || name == kThickness || name == kFriction) return Range::positive();
@@ -43,7 +43,7 @@ MechanicsParameter read_parameter(ConfigReader& parameters, const std::string& n
 }
 
 void read_relaxation(ConfigReader& parameters, IdentifySpec& out) {
-  // Parts that could sum to 1 would leave nothing in the end.
+  // If the fractions could sum to 1, the long-term modulus could be zero.
   std::vector<ConfigReader> terms = parameters.sections("relaxation");
   for (ConfigReader& term : terms) {
     const std::string index = std::to_string(out.relaxation.size());
@@ -77,7 +77,7 @@ MarkerMeasurement read_markers(ConfigReader& in) {
   return out;
 }
 
-/// Changes as words that Make and the shell leave alone.
+/// Reads changes as words that need no quoting in Make and the shell.
 std::vector<std::string> read_changes(ConfigReader& in) {
   std::vector<std::string> changes = in.texts("changes");
   for (const std::string& change : changes)
@@ -154,7 +154,7 @@ Measurement read_measurement(ConfigReader& in) {
   return out;
 }
 
-/// Folders are called like nodes and checks, in them like runs.
+/// Refuses equal names: folders are named after nodes and checks, and their subfolders after runs.
 void refuse_same_names(ConfigReader& in, const IdentifySpec& spec) {
   std::set<std::string> folders, runs;
   const auto single = [&](const std::string& key, std::set<std::string>& names, const std::string& name) {

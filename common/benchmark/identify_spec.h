@@ -1,4 +1,4 @@
-// What a sensor's mechanics are identified from, as one file: parameters with priors, measurements, what is simulated.
+// Specification of an identification of a sensor's mechanics: parameters with priors, measurements, simulations.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,20 +11,20 @@
 
 namespace tacipc {
 
-/// What is known of a number before the measurements: normal, or with `logarithmic` its logarithm is; none outside
-/// [low, high].
+/// Prior distribution of a number: normal, or log-normal if `logarithmic`, truncated to [low, high].
 struct Prior {
   double mean = 0.0;
-  double sigma = 0.0;  // of the number, or of its natural logarithm
+  double sigma = 0.0;  // standard deviation of the number, or of its natural logarithm
   double low = 0.0, high = 0.0;
   bool logarithmic = false;
 
-  /// `{mean, sigma}` or `{mean, factor}` (logarithmic: one deviation is a factor of that), and `bounds`, which lie
-  /// within `natural` and are that where they are not given.
+  /// Reads `{mean, sigma}` or `{mean, factor}` (logarithmic: one standard deviation is this factor), and `bounds`,
+  /// which lie within `natural` and default to it.
   static Prior read(ConfigReader& in, const Range& natural);
 };
 
-/// A parameter of the sensor. One that the press has to be run for has nodes: values it is run at, ascending.
+/// A parameter of the sensor. A parameter on which the press run depends has nodes: the values at which it is
+/// simulated, ascending.
 struct MechanicsParameter {
   std::string name;
   Prior prior;
@@ -38,26 +38,28 @@ inline constexpr const char* kFriction = "friction";
 inline constexpr const char* kMount = "mount_compliance_mm_per_n";
 inline constexpr const char* kShearMount = "mount_shear_compliance_mm_per_n";
 
+/// Kind of a measurement: force over depth, force over travel, force over time, or marker displacements.
 enum class MeasurementKind { press, shear, relaxation, markers };
 
-/// A column of a table, and what its numbers are multiplied by to be in our units and signs.
+/// A column of a table, and the factor that converts its numbers to the units and signs of this project.
 struct MeasuredColumn {
   std::string quantity;
   std::string column;
   double factor = 1.0;
 };
 
-/// Marker vectors in two photographs of one press, which is dragged between them.
+/// Marker displacements in two photographs of one press, with a shear between them.
 struct MarkerMeasurement {
-  std::string press_file, shear_file;                    // Mx,My,dx,dy, px
-  Eigen::Vector2d contact_px = Eigen::Vector2d::Zero();  // the ball's place when pressed
+  std::string press_file, shear_file;                    // tables with columns Mx,My,dx,dy, px
+  Eigen::Vector2d contact_px = Eigen::Vector2d::Zero();  // position of the ball when pressed
   double contact_sigma_px = 0.0;
-  double shift_sigma_px = 0.0;  // of the image as a whole between the photographs at rest and under load
-  double scale_sigma = 0.0;     // alike
-  double sigma_px = 0.0;        // of a coordinate of a measured vector
+  double shift_sigma_px = 0.0;  // standard deviation of the whole image's shift from rest to load
+  double scale_sigma = 0.0;     // standard deviation of the whole image's scale from rest to load
+  double sigma_px = 0.0;        // standard deviation of a coordinate of a measured displacement
   Prior depth_mm, travel_mm;
 };
 
+/// One measurement.
 struct Measurement {
   std::string name;
   MeasurementKind kind = MeasurementKind::press;
@@ -66,65 +68,68 @@ struct Measurement {
   double edge_mm = 0.0;  // longest edge of a ball, spacing of a mesh
   std::string mesh, unit;
   double edge_radius_mm = 0.0;
-  Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();  // on the gel
+  Eigen::Vector2d center_mm = Eigen::Vector2d::Zero();  // position on the gel
 
-  std::string file;                            // table below the shared data (of markers the fields' folder)
-  MeasuredColumn at, force;                    // depth, travel or time, and force, of each row
-  double sigma_relative = 0.0, sigma_n = 0.0;  // of a force
-  std::optional<double> fit_to_mm;             // press: deeper rows are predicted, not fitted
-  std::optional<Prior> depth_zero_mm;          // by which the gel is deeper than the table says; absent: 0
-  double depth_mm = 0.0;                       // shear, relaxation: of the press
-  double ramp_s = 0.0;                         // relaxation: how long the press took
-  std::vector<double> predict_mm;              // press: depths of which no row is needed
+  std::string file;                            // table below the shared data; for markers, the folder of the tables
+  MeasuredColumn at, force;                    // depth, travel or time, and force, in each row
+  double sigma_relative = 0.0, sigma_n = 0.0;  // standard deviation of a force
+  std::optional<double> fit_to_mm;     // press: largest depth of rows that are fitted; deeper rows are predicted
+  std::optional<Prior> depth_zero_mm;  // correction added to the table's depth; absent: 0
+  double depth_mm = 0.0;               // shear, relaxation: depth of the press
+  double ramp_s = 0.0;                 // relaxation: duration of the press
+  std::vector<double> predict_mm;      // press: depths to predict, which need no row
   std::optional<MarkerMeasurement> markers;
 
-  // What is simulated.
-  std::vector<double> depths_mm;  // press, relaxation: the deepest alone; else of each run that is sheared, ascending
-  int press_frames = 0;           // of a press
-  double travel_mm = 0.0;         // of a shear
+  // Simulated runs.
+  std::vector<double> depths_mm;  // largest depth alone, or ascending depths of sheared runs
+  int press_frames = 0;           // frames of a press
+  double travel_mm = 0.0;         // travel of a shear
   int shear_frames = 0;
   double direction_deg = 0.0;
 
+  /// Returns whether the measurement has a shear.
   bool sheared() const { return kind == MeasurementKind::shear || kind == MeasurementKind::markers; }
 };
 
-/// The middle of all nodes pressed with something changed: what that changes is the model's own error.
+/// A model check: the middle node simulated with a change. The change of the result estimates the model's own error.
 struct ModelCheck {
   std::string name;
-  std::string mesh, press;           // configurations in place of the case's …
-  std::vector<std::string> changes;  // … or changes of the sensor file, as `tacipc set` takes them
+  std::string mesh, press;           // configurations that replace the spec's
+  std::vector<std::string> changes;  // changes of the sensor file, as `tacipc set` takes them
 };
 
 /// One combination of nodes; the first parameter with nodes varies slowest.
 struct RunNode {
   std::string name;            // n00, n01, …
-  std::vector<double> values;  // of the parameters with nodes
+  std::vector<double> values;  // values of the parameters with nodes
 };
 
-/// configs/studies/identify/gsmini_force.yaml and files like it. Paths of settings are relative to the file, those of
-/// data to the shared data.
+/// Contents of a file such as configs/studies/identify/gsmini_force.yaml. Paths of settings are relative to the file,
+/// paths of data to the shared data.
 struct IdentifySpec {
   std::string title;
   std::string sensor, mesh, press;
-  std::vector<std::string> changes;  // of the sensor file, as `tacipc set` takes them
+  std::vector<std::string> changes;  // changes of the sensor file, as `tacipc set` takes them
   int seed = 1;
-  int draws = 0;    // from the posterior
-  int members = 0;  // of the ensemble
+  int draws = 0;    // number of draws from the posterior
+  int members = 0;  // number of members of the ensemble
   std::vector<MechanicsParameter> parameters;
-  std::vector<std::pair<MechanicsParameter, MechanicsParameter>> relaxation;  // part and time_s of each term
+  std::vector<std::pair<MechanicsParameter, MechanicsParameter>> relaxation;  // fraction and time_s of each term
   std::vector<Measurement> measurements;
   std::vector<ModelCheck> checks;
 
   static IdentifySpec read(ConfigReader& in);
+  /// Returns the parameter of this name, or null.
   const MechanicsParameter* find(const std::string& name) const;
-  /// Those with nodes, in the order of kPoisson, kThickness, kFriction.
+  /// Returns the parameters with nodes, in the order kPoisson, kThickness, kFriction.
   std::vector<const MechanicsParameter*> axes() const;
+  /// Returns all combinations of nodes.
   std::vector<RunNode> nodes() const;
-  /// That of the middle value of each axis (the lower one of an even number).
+  /// Returns the combination of the middle values (the lower one of an even number).
   RunNode middle() const;
 };
 
-/// Name of one run of a measurement: that of the measurement, and for those that are sheared the depth in µm.
+/// Returns the name of one run of a measurement: the measurement's name, followed by the depth in µm if it is sheared.
 std::string run_name(const Measurement& measurement, double depth_mm);
 
 }  // namespace tacipc

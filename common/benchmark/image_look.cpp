@@ -10,12 +10,12 @@
 namespace tacipc {
 namespace {
 
-constexpr int kColumns = 8, kRows = 6;  // cells
-constexpr int kBlocks = 4;              // of a cell, along each edge: noise is little in their means
+constexpr int kColumns = 8, kRows = 6;  // numbers of cells
+constexpr int kBlocks = 4;              // blocks per cell along each edge: their means contain little noise
 constexpr double kPatternCodes = 2.0, kReliefCodes = 1.0, kLevelCodes = 1.5, kShade = 0.1, kLogarithm = 0.3;
 constexpr double kMostNoiseCodes = 4.0;
 
-/// Pixels of one of so many equal parts of an image, at least one in each direction.
+/// Pixel range of one of several equal parts of an image, at least one pixel in each direction.
 struct Cell {
   int left, top, right, bottom;
   double area() const { return static_cast<double>(right - left) * (bottom - top); }
@@ -41,7 +41,7 @@ double mean_of(const FloatImage& image, const Cell& cell, int channel) {
   return sum / cell.area();
 }
 
-/// An image as means over blocks.
+/// Returns an image of means over blocks.
 FloatImage blocks_of(const FloatImage& image) {
   FloatImage out(kColumns * kBlocks, kRows * kBlocks, 3);
   const std::vector<Cell> blocks = cells_of(image, out.width, out.height);
@@ -51,7 +51,7 @@ FloatImage blocks_of(const FloatImage& image) {
   return out;
 }
 
-/// Residuals of a cell's blocks from the plane that fits them best, codes.
+/// Appends residuals of a cell's blocks from their best-fitting plane, 8-bit levels.
 void append_relief(const FloatImage& blocks, const Cell& cell, int channel, std::vector<double>& relief) {
   const double mean = mean_of(blocks, cell, channel);
   const double x0 = 0.5 * (cell.left + cell.right - 1), y0 = 0.5 * (cell.top + cell.bottom - 1);
@@ -84,7 +84,7 @@ Eigen::VectorXd relief_of(const FloatImage& blocks, const std::vector<Cell>& cel
   return Eigen::Map<const Eigen::VectorXd>(relief.data(), static_cast<Eigen::Index>(relief.size())) / kReliefCodes;
 }
 
-/// Quartiles of the change over the cells, per channel. Takes the middle ones off the blocks.
+/// Returns quartiles of the change over the cells, per channel, and subtracts the middle ones from the blocks.
 Eigen::VectorXd take_level(FloatImage& blocks, const std::vector<Cell>& cells) {
   Eigen::VectorXd level(9);
   for (int c = 0; c < 3; ++c) {
@@ -99,9 +99,9 @@ Eigen::VectorXd take_level(FloatImage& blocks, const std::vector<Cell>& cells) {
   return level;
 }
 
-/// Takes noise off the change: what most blocks have of it, three times, but at most kMostNoise.
+/// Subtracts noise from the change: three times the deviation of most blocks, but at most kMostNoise.
 void take_noise(FloatImage& blocks) {
-  constexpr double kDeviation = 1.4826;  // of a normal distribution, over the median of the magnitudes
+  constexpr double kDeviation = 1.4826;  // standard deviation over median of magnitudes, for a normal distribution
   for (std::size_t c = 0; c < 3; ++c) {
     std::vector<double> magnitudes;
     for (std::size_t i = c; i < blocks.pixels.size(); i += 3) magnitudes.push_back(std::abs(blocks.pixels[i]));
@@ -113,7 +113,8 @@ void take_noise(FloatImage& blocks) {
   }
 }
 
-/// Numbers of the shading, in the order of the header. `pitch`: pixels from block to block.
+/// Computes the numbers of the shading, in the order of the header.
+/// \param pitch pixels from block to block
 Eigen::VectorXd shading_of(const FloatImage& blocks, const Eigen::Vector2d& pitch, double change_codes) {
   Eigen::VectorXd shading = Eigen::VectorXd::Zero(13);
   using Channels = Eigen::Array<double, 3, Eigen::Dynamic>;

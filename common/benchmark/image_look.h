@@ -1,5 +1,5 @@
-// A tactile image and its background described by few numbers, by which photographs are compared with the images that a
-// network was trained on (trained_look.h).
+// Look of a tactile image: a few numbers that describe image and background, for comparing photographs with the
+// training images of a network (trained_look.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -10,42 +10,45 @@
 namespace tacipc {
 
 /// Parts of a look: two of the background, two of the image's change against it.
-/// - pattern: mean code of each of 8 × 6 cells, per channel
-/// - relief: what a plane of its own leaves of each cell's 4 × 4 blocks: edges of something that touches
-/// - level: quartiles over the cells of the change, per channel: most of a gel is not touched
-/// - shading: of the changed region, each independent of its place: to which side each channel gets lighter (lamps have
-///   sides), each channel's share of the change, their correlations, and the logarithm of the change
+/// - pattern: mean value of each of 8 × 6 cells, per channel
+/// - relief: residual of each cell's 4 × 4 blocks after subtracting a plane: edges of anything that touches
+/// - level: quartiles over the cells of the change, per channel, because most of a gel is not in contact
+/// - shading: numbers of the changed region that do not depend on its position: the direction in which each channel
+///   gets lighter (lights have directions), each channel's fraction of the change, their correlations, and the
+///   logarithm of the change
 enum class LookPart { pattern, relief, level, shading };
 inline constexpr std::array kLookParts{"pattern", "relief", "level", "shading"};
 inline constexpr std::array<Eigen::Index, kLookParts.size()> kLookSizes{144, 2304, 9, 13};
 
-/// Numbers of each part, in units of the smallest difference that matters: 2 codes, 1 code, 1.5 codes, a tenth. Those
-/// of the change are empty where only a background is looked at.
+/// A look. The numbers of each part are in units of the smallest relevant difference: 2, 1 and 1.5 8-bit levels, and a
+/// tenth. Parts of the change are empty if only a background is described.
 struct ImageLook {
   std::array<Eigen::VectorXd, kLookParts.size()> parts;
-  double change_codes = 0.0;  // root of the mean square of the change, without its noise
+  double change_codes = 0.0;  // root mean square of the change, without its noise
 
   const Eigen::VectorXd& operator[](LookPart part) const { return parts[static_cast<std::size_t>(part)]; }
 };
 
-/// Both as a network sees them, codes. \pre three channels, of one size
+/// Describe an image and its background, or a background alone, as a network receives them (8-bit levels).
+/// \pre three channels, of one size
 ImageLook look_of(const FloatImage& background, const FloatImage& image);
 ImageLook look_of(const FloatImage& background);
 
-/// How rough each of the 8 × 6 cells is by a relief, or by what it is off another one: the root of the mean square,
-/// less that of the median cell, so that noise, which is everywhere, does not count.
+/// Returns the roughness of each of the 8 × 6 cells from a relief, or from the difference of two reliefs: the root mean
+/// square, minus the median cell's, so that noise, which is everywhere, does not count.
 Eigen::VectorXd roughness_of(const Eigen::VectorXd& relief);
 inline constexpr Eigen::Index kRoughnessSize = 48;
 
-/// How a picture may differ from what the camera saw.
+/// Possible mirroring or channel swap between a picture and the camera's image.
 struct ImageTurn {
-  bool swapped = false;     // red and blue
-  bool transposed = false;  // rows and columns, then …
+  bool swapped = false;     // red and blue exchanged
+  bool transposed = false;  // rows and columns exchanged, before mirroring
   bool left_right = false;  // mirrored
   bool top_bottom = false;
 
   bool operator==(const ImageTurn&) const = default;
 };
+/// Applies the turn.
 FloatImage turned(const FloatImage& image, const ImageTurn& turn);
 
 }  // namespace tacipc

@@ -12,7 +12,7 @@
 namespace tacipc {
 namespace {
 
-/// Mean square residual in the box.
+/// Returns the mean square residual in the box.
 double mismatch(const ByteImage& image, const ByteImage& photograph, const std::array<int, 4>& box) {
   double squares = 0.0;
   std::int64_t inside = 0;

@@ -1,4 +1,4 @@
-// Which frames of a press are pictured, where in the image; and how such a place is found on a photograph.
+// Positions in the image at which frames of a press run are pictured, and the fit of such a position to a photograph.
 #pragma once
 
 #include <array>
@@ -14,59 +14,62 @@
 
 namespace tacipc {
 
-/// Where the object's centre line and its x axis appear.
+/// Position of the object's axis, and direction of its x axis, in the image.
 struct ImagePlace {
-  double x_px = 0.0;  // pixel whose middle it is
+  double x_px = 0.0;  // pixel coordinates; a pixel's middle is a whole number
   double y_px = 0.0;
-  double yaw_rad = 0.0;  // from x towards y
+  double yaw_rad = 0.0;  // angle from x towards y
 };
 
-/// Where the contact of a ball appears, and how large.
+/// Position and radius of a ball's contact in the image.
 struct ContactPlace {
   ImagePlace center;
   double radius_px = 0.0;
 };
 
+/// An image to make.
 struct NamedFrame {
-  std::string name;                     // of the image, and of the photograph without its ending
-  int frame = 0;                        // of the press, or …
-  std::optional<ContactPlace> contact;  // … between frames, as deep as this contact of a ball wants
+  std::string name;                     // name of the image, and of the photograph without its suffix
+  int frame = 0;                        // frame of the press run, if there is no contact
+  std::optional<ContactPlace> contact;  // contact of a ball, whose radius gives the depth (between frames)
 };
 
-/// The image the place is fitted to, and the part of it that counts.
+/// Fit of the position to one image, within a box.
 struct PlaceFit {
   std::string image;
   std::array<int, 4> box_px{};  // x, y, width, height
-  bool yaw = true;              // a ball has none
+  bool yaw = true;              // fit the yaw; false for a ball
 };
 
+/// Contents of the file.
 struct ImagePlaces {
   std::vector<NamedFrame> images;
-  ImagePlace place;  // of all images, unless each has a contact
+  ImagePlace place;  // position of all images, unless each has a contact
   std::optional<PlaceFit> fit;
-  std::optional<double> ball_radius_m;  // images are told by their contacts
+  std::optional<double> ball_radius_m;  // set if images are defined by contacts
 
   static ImagePlaces read(ConfigReader& in);
 };
 
-/// The rigid motion from the origin to a place: Rz(yaw), then the translation. \throw DataError if the camera does not
-/// see the front face there
+/// Returns the rigid motion from the origin to a position: Rz(yaw), then the translation.
+/// \throw DataError if the camera does not see the front face there
 Matrix4 place_pose(const ImagePlace& place, const Sensor& sensor);
 
+/// Result of a fit.
 struct FittedPlace {
   ImagePlace place;
-  double rmse_before = 0.0;  // codes, in the box
+  double rmse_before = 0.0;  // 8-bit levels, in the box
   double rmse_after = 0.0;
-  int views = 0;  // images computed
+  int views = 0;  // number of images computed
 
-  /// As a record repeats it.
+  /// Returns the lines of a record.
   Value to_value(const std::string& image) const;
 };
 
-/// Minimises over centre and yaw (if asked) the square sum, over the box, of the image made at a place − photograph
-/// less each channel's mean difference outside the box. Pattern search: steps of 1 pixel and 1 degree both ways along
-/// each parameter, halved when none improves it, until 1/32: the result does not depend on derivatives of a tessellated
-/// surface.
+/// Fits centre and yaw (if asked). Minimises the sum of squares, over the box, of the difference between image and
+/// photograph, minus each channel's mean difference outside the box. Uses pattern search, which needs no derivatives of
+/// a tessellated surface: steps of 1 pixel and 1 degree both ways along each parameter, halved when none improves, down
+/// to 1/32.
 FittedPlace search_place(const ImagePlace& start, const PlaceFit& fit, const ByteImage& photograph,
                          const std::function<ByteImage(const ImagePlace&)>& image_at);
 

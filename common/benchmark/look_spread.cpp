@@ -10,10 +10,10 @@
 namespace tacipc {
 namespace {
 
-constexpr double kLeastDeviation = 0.2;  // of a direction, units
+constexpr double kLeastDeviation = 0.2;  // smallest deviation of a direction, units
 constexpr Eigen::Index kMostDirections = 32;
 constexpr double kLeastAlong = 3.0;
-constexpr std::size_t kLeftOut = 48;  // groups, at most, spread over all of them
+constexpr std::size_t kLeftOut = 48;  // groups left out at most, spread over all groups
 
 }  // namespace
 
@@ -47,7 +47,7 @@ LookSpread LookSpread::fitted(const Sums& sums) {
 
 LookSpread::Parts LookSpread::parts_of(const Eigen::VectorXd& numbers) const {
   const Eigen::VectorXd off = numbers - mean_, along = directions_.transpose() * off;
-  // A unit is added to each variance: what does not matter elsewhere does not matter along a direction.
+  // A unit is added to each variance, because differences below a unit are irrelevant in every direction.
   return {.along = std::sqrt((along.array().square() / (deviations_.array().square() + 1.0)).sum()),
           .beside = std::sqrt(std::max(0.0, off.squaredNorm() - along.squaredNorm()))};
 }
@@ -67,7 +67,8 @@ LookSpread LookSpread::of(const std::vector<Eigen::MatrixXd>& groups, const Limi
         farthest[k] = {std::max(farthest[k].along, parts.along), std::max(farthest[k].beside, parts.beside)};
       }
     };
-    // A direction that one group alone goes is beside those of the others, and far along once it is known.
+    // A direction in which one group alone varies is off the directions of the others, and far along once it is
+    // included.
     go_as_far(spread);
     if (groups.size() == 1) return;
     Sums others = all;
@@ -107,7 +108,7 @@ LookSpread LookSpread::read(ConfigReader& in, Eigen::Index size) {
     return Eigen::VectorXd(
         Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size())));
   };
-  // Far beyond what images have, and narrow enough for every distance to be a number.
+  // Far beyond the values of images, and small enough for finite distances.
   constexpr double kMost = 1e6;
   LookSpread spread;
   spread.mean_ = column(in.numbers("mean", static_cast<std::size_t>(size), Range::between(-kMost, kMost)));

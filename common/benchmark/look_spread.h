@@ -1,4 +1,4 @@
-// How far numbers that belong to images spread over the images of a training, and how far others are from these.
+// Spread of per-image numbers over the training images, and the distance of other images from them.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,22 +9,27 @@
 
 namespace tacipc {
 
-/// A mean, and the directions in which the numbers were seen to vary by more than a fifth of their unit, the smallest
-/// difference that matters. Far is what goes farther along these directions than the training did, or beside them.
+/// Mean of the training, and the directions in which its numbers vary by more than a fifth of their unit, the smallest
+/// relevant difference. The distance is large for numbers beyond the training's range along these directions, or off
+/// them.
 class LookSpread {
  public:
+  /// Limits of the distance.
   struct Limits {
-    double margin;        // of what a group needs whose spread was learnt without it
-    double least_beside;  // beside the directions
+    double margin;        // factor on the distance of a group from a spread that was fitted without it
+    double least_beside;  // smallest limit for the distance off the directions
   };
-  /// Rows of numbers, by groups of images that belong together (of one sample). \pre at least one row
+  /// Fits a spread.
+  /// \param groups rows of numbers, by groups of images that belong together (of one sample)
+  /// \pre at least one row
   static LookSpread of(const std::vector<Eigen::MatrixXd>& groups, const Limits& limits);
 
-  /// 1: as far as numbers of the training may be.
+  /// Returns the distance; 1 is the limit for images of the training.
   double distance(const Eigen::VectorXd& numbers) const;
 
   Value::Map to_value() const;
-  /// `size`: how many numbers a row has. Faults are noted in the reader.
+  /// Reads a spread. Errors are noted in the reader.
+  /// \param size numbers per row
   static LookSpread read(ConfigReader& in, Eigen::Index size);
 
  private:
@@ -36,8 +41,8 @@ class LookSpread {
   Parts parts_of(const Eigen::VectorXd& numbers) const;
 
   Eigen::VectorXd mean_;
-  Eigen::MatrixXd directions_;  // columns, of length 1
-  Eigen::VectorXd deviations_;  // of each
+  Eigen::MatrixXd directions_;  // unit columns
+  Eigen::VectorXd deviations_;  // standard deviation along each
   double along_limit_ = 0.0, beside_limit_ = 0.0;
 };
 

@@ -1,4 +1,4 @@
-// A benchmark of marker vectors measured under a ball, pressed and then dragged, as one file.
+// A benchmark of marker displacements measured under a ball, pressed and then sheared, as one file.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,46 +10,47 @@
 
 namespace tacipc {
 
-/// What is held while depth and shear are fitted. A variant changes some of it.
+/// Quantities that are fixed while depth and shear are fitted. A variant changes some of them.
 struct MarkerAssumptions {
   double ball_radius_m = 0.0;
   double friction = 0.0;
   double px_per_m = 0.0;
-  Eigen::Vector2d contact_px = Eigen::Vector2d::Zero();  // where the ball stands after the press; column, row
+  Eigen::Vector2d contact_px = Eigen::Vector2d::Zero();  // position of the ball after the press: column, row
 };
 
+/// A variant of the assumptions.
 struct MarkerVariant {
   std::string name;
   MarkerAssumptions assumed;
-  std::optional<double> gel_thickness_m = std::nullopt;  // in place of the sensor's
-  bool own_runs = false;  // another ball, friction or gel: what was simulated for the base does not serve
+  std::optional<double> gel_thickness_m = std::nullopt;  // thickness that replaces the sensor's
+  bool own_runs = false;  // another ball, friction or gel, so that the base's simulations do not apply
 };
 
-/// configs/studies/fots/fots_markers.yaml and files like it. Paths of settings are relative to the file, those of data
-/// to a folder below the shared data.
+/// Contents of a file such as configs/studies/fots/fots_markers.yaml. Paths of settings are relative to the file, paths
+/// of data to a folder below the shared data.
 struct MarkerBenchmark {
   std::string title;
   std::string data;        // folder below the shared data
-  std::string press_file;  // below `data`: markers after the press …
-  std::string shear_file;  // … and after the shear; rest place and displacement since rest, px
+  std::string press_file;  // file below `data`: markers after the press
+  std::string shear_file;  // markers after the shear; both hold rest positions and displacements since rest, px
   bool remove_press_median = false;
   bool remove_shear_median = false;
   Eigen::Vector2d image_px = Eigen::Vector2d::Zero();
-  Eigen::Vector2d shear_marker_px = Eigen::Vector2d::Zero();  // rest place of the marker that the shear is fitted to
-  double least_length_px = 0.0;                               // of a measured vector whose direction is compared
-  double direction_deg = 0.0;                                 // of the shear: 0 along x, 90 along y
-  double ball_edge_m = 0.0;                                   // longest edge of its mesh
-  std::string sensor, mesh, press;                            // configurations of the stages
-  double shallowest_m = 0.0, deepest_m = 0.0;                 // of the presses that are sheared
-  int depths = 0;                                             // how many, evenly
-  double press_step_m = 0.0;                                  // between frames of the press
+  Eigen::Vector2d shear_marker_px = Eigen::Vector2d::Zero();  // rest position of the marker that the shear is fitted to
+  double least_length_px = 0.0;                // smallest measured length for which directions are compared
+  double direction_deg = 0.0;                  // direction of the shear: 0 along x, 90 along y
+  double ball_edge_m = 0.0;                    // longest edge of the ball's mesh
+  std::string sensor, mesh, press;             // configurations of the stages
+  double shallowest_m = 0.0, deepest_m = 0.0;  // smallest and largest depth of the sheared runs
+  int depths = 0;                              // number of depths, evenly spaced
+  double press_step_m = 0.0;                   // depth between frames of the press
   double shear_m = 0.0;
   int shear_steps = 0;
   MarkerAssumptions assumed;
   std::vector<MarkerVariant> variants;
 
   static MarkerBenchmark read(ConfigReader& in);
-  /// The depths that are simulated, ascending, m.
+  /// Returns the simulated depths, ascending, m.
   std::vector<double> depths_m() const;
 };
 

@@ -1,4 +1,4 @@
-// What was measured of images or depth maps against references, as a table and as means.
+// Metrics of images or depth maps against references, as a table and as means.
 #pragma once
 
 #include <string>
@@ -10,26 +10,27 @@
 
 namespace tacipc {
 
-/// 10 log₁₀(1 / mse) in decibels, of numbers between 0 and 1; +∞ for equal images.
+/// Returns 10 log₁₀(1 / mse) in decibels, for values between 0 and 1; +∞ for equal images.
 double psnr_db(double mse);
 
-/// One region of one image or depth map against its reference.
+/// Metrics of one region of one image or depth map.
 struct MetricsRow {
   std::string name;
   std::string region;
-  std::vector<std::pair<const char*, double>> values;  // column and number; the same columns in all rows
+  std::vector<std::pair<const char*, double>> values;  // column and number; all rows have the same columns
 
-  /// \pre there is such a column
+  /// Returns the number of a column.
+  /// \pre the column exists
   double operator[](std::string_view column) const;
 };
 
-/// CSV with a header line; numbers in the shortest form that reads back to the same bits, infinity as inf.
+/// Returns CSV with a header line; numbers in the shortest form that reads back to the same bits, infinity as inf.
 /// \pre not empty
 std::string to_csv(const std::vector<MetricsRow>& rows);
 
-/// Per region: number of images, mean and standard deviation (over n, not n − 1) of each column, and the decibels of
-/// the mean MSE where there is a `mse`. Where an image equals its reference the PSNR has an infinite mean and no
-/// standard deviation (NaN).
+/// Returns per region: number of images, mean and standard deviation (over n, not n − 1) of each column, and the
+/// decibels of the mean MSE if there is a column `mse`. If an image equals its reference, the PSNR's mean is infinite
+/// and its standard deviation NaN.
 Value::Map summary_of(const std::vector<MetricsRow>& rows);
 
 }  // namespace tacipc

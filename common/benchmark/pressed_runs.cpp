@@ -38,7 +38,8 @@ PressedRun read_run(const std::filesystem::path& folder, double ball_radius_m) {
   return run;
 }
 
-/// Between which two of ascending values a value lies: the first's index, and how far towards the second.
+/// Returns the interval of ascending values that contains a value: index of its first end, and fraction towards the
+/// second.
 std::pair<std::size_t, double> between(const std::vector<double>& values, double value) {
   const auto above = std::upper_bound(values.begin() + 1, values.end() - 1, value);
   const auto i = static_cast<std::size_t>(above - values.begin()) - 1;
@@ -59,9 +60,9 @@ Eigen::Matrix3Xd blend(const PressedRun& run, const std::vector<std::size_t>& fr
   return (1.0 - part) * frame_at(run, frames[i], from_axis_m) + part * frame_at(run, frames[i + 1], from_axis_m);
 }
 
-constexpr double kTolerance = 1e-3;  // of the spacing
+constexpr double kTolerance = 1e-3;  // fraction of the spacing
 
-/// Distinct values among ascending ones.
+/// Returns distinct values of ascending ones.
 std::vector<double> distinct(std::vector<double> values) {
   std::ranges::sort(values);
   const double tolerance = kTolerance * (values.back() - values.front()) / static_cast<double>(values.size());
@@ -71,7 +72,7 @@ std::vector<double> distinct(std::vector<double> values) {
   return out;
 }
 
-/// Catmull–Rom's weights of four values at −1, 0, 1, 2 for a point at t in [0, 1].
+/// Returns Catmull–Rom weights of four values at −1, 0, 1, 2 for a point at t in [0, 1].
 std::array<double, 4> catmull_rom(double t) {
   return {0.5 * t * (-1.0 + t * (2.0 - t)), 1.0 + 0.5 * t * t * (-5.0 + 3.0 * t), 0.5 * t * (1.0 + t * (4.0 - 3.0 * t)),
           0.5 * t * t * (t - 1.0)};

@@ -1,4 +1,4 @@
-// Simulated presses of one ball to several depths, each dragged afterwards: displacement at any depth and way.
+// Simulated presses of one ball to several depths, each followed by a shear: displacements at any depth and travel.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,16 +10,17 @@
 
 namespace tacipc {
 
-/// Markers at rest on a lattice parallel to the axes of S, row by row or in any other order.
+/// Markers at rest on a lattice parallel to the axes of S, in any order.
 class MarkerLattice {
  public:
-  /// From rest places, m. \throw DataError, naming `source`, if they are not a full lattice of
-  /// at least 4 × 4, within a thousandth of its spacing
+  /// Builds the lattice from rest positions, m.
+  /// \throw DataError, naming `source`, if they are not a full lattice of at least 4 × 4, within a thousandth of its
+  /// spacing
   MarkerLattice(const Positions& rest_m, const std::string& source);
 
-  /// Displacement at a point of the undeformed front, m, from the `vectors` of all markers: cubic in
-  /// each direction (Catmull and Rom's), its slopes one-sided in the outermost cells. \throw DataError if the point
-  /// lies outside the lattice
+  /// Interpolates the displacement at a point of the undeformed front, m, from the `vectors` of all markers: cubic in
+  /// each direction (Catmull–Rom), with one-sided slopes in the outermost cells.
+  /// \throw DataError if the point lies outside the lattice
   Vector3 at(const Eigen::Vector2d& point_m, const Positions& vectors) const;
 
  private:
@@ -30,36 +31,38 @@ class MarkerLattice {
   Eigen::MatrixXi marker_;                           // row, column → marker
 };
 
-/// One press and shear, as the files of the press stage tell it (those of any simulator may).
+/// One press and shear, as read from the files of `press` or another simulator.
 struct PressedRun {
   std::string source;
   MarkerLattice lattice;
-  std::vector<Positions> displacement_m = {};                   // of the markers since rest, per frame
-  Eigen::Vector2d place_m = Eigen::Vector2d::Zero();            // of the ball at the end of the press
-  std::vector<std::size_t> press_frame = {}, shear_frame = {};  // ascending; the shear begins with the end of the press
-  std::vector<double> depth_m = {};                             // of each press frame
-  std::vector<double> way_m = {};                               // of each shear frame
+  std::vector<Positions> displacement_m = {};                   // displacement of the markers since rest, per frame
+  Eigen::Vector2d place_m = Eigen::Vector2d::Zero();            // position of the ball at the end of the press
+  std::vector<std::size_t> press_frame = {}, shear_frame = {};  // ascending; the shear starts at the end of the press
+  std::vector<double> depth_m = {};                             // depth in each press frame
+  std::vector<double> way_m = {};                               // travel in each shear frame
 
   double final_depth_m() const { return depth_m.back(); }
 };
 
-/// Presses of one ball, ascending in depth.
+/// Press runs of one ball, in order of ascending depth.
 class PressedRuns {
  public:
-  /// Every folder at or below `folders` that holds marker_displacement.npy, with markers.npy, object_pose.npy and
-  /// phase.npy. The depth is the ball's radius minus the height of its centre, the origin of the object's frame. \throw
-  /// DataError if files do not fit together, nothing follows a press, or there are fewer than two depths
+  /// Reads every folder at or below `folders` that holds marker_displacement.npy, with markers.npy, object_pose.npy and
+  /// phase.npy. The depth is the ball's radius minus the height of its centre, the origin of the object's frame.
+  /// \throw DataError if files do not fit together, no shear follows a press, or there are fewer than two depths
   PressedRuns(const std::vector<std::filesystem::path>& folders, double ball_radius_m);
 
   double deepest_m() const { return runs_.back().final_depth_m(); }
   double shallowest_m() const { return runs_.front().final_depth_m(); }
   double longest_way_m() const;
 
-  /// Displacement since rest, m, at points given from the ball's axis, m: pressed to a depth, linear between the frames
-  /// of the deepest press. \pre 0 ≤ depth_m ≤ deepest_m()
+  /// Returns displacements since rest, m, after a press to a depth, at points relative to the ball's axis, m.
+  /// Interpolates linearly between the frames of the deepest press.
+  /// \pre 0 ≤ depth_m ≤ deepest_m()
   Eigen::Matrix3Xd pressed(const Eigen::Matrix2Xd& from_axis_m, double depth_m) const;
-  /// The same pressed and then dragged by `way_m`: linear between the frames of a run and between the two runs next to
-  /// the depth. \pre shallowest_m() ≤ depth_m ≤ deepest_m(), 0 ≤ way_m ≤ longest_way_m()
+  /// Returns displacements since rest after a press and a shear by `way_m`. Interpolates linearly between the frames of
+  /// a run and between the two runs next to the depth.
+  /// \pre shallowest_m() ≤ depth_m ≤ deepest_m(), 0 ≤ way_m ≤ longest_way_m()
   Eigen::Matrix3Xd sheared(const Eigen::Matrix2Xd& from_axis_m, double depth_m, double way_m) const;
 
  private:

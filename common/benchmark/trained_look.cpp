@@ -16,10 +16,10 @@ namespace {
 constexpr int kFormat = 1;
 constexpr double kLeastChangeCodes = 1.0;
 /// Limits of pattern, relief, level, shading (units of image_look.h). Photographs of an untouched gel over an hour
-/// differ by 8 in the pattern and 3 at sharp edges of the relief; what touches is of more kinds than a training has.
+/// differ by 8 in the pattern and by 3 at sharp edges of the relief; contacts vary more than any training set.
 constexpr std::array<LookSpread::Limits, kLookParts.size()> kLimits{{{1.5, 12.0}, {1.5, 2.0}, {1.5, 4.5}, {2.0, 4.0}}};
-constexpr double kTouchedPattern = 1.8;  // times what the relief is off; more is all over the image
-constexpr double kClearly = 0.8;         // a less likely explanation must bring an image nearer by this
+constexpr double kTouchedPattern = 1.8;  // limit of pattern over relief distance; beyond it the whole image differs
+constexpr double kClearly = 0.8;         // factor by which a less likely explanation must reduce the distance
 constexpr std::size_t kNamesInMessage = 3;
 
 double largest(const std::array<double, kLookParts.size()>& distances) { return *std::ranges::max_element(distances); }
@@ -31,7 +31,7 @@ struct NamedTurn {
   std::string key, words;
 };
 
-/// Which of the two was turned.
+/// Image that was transformed: the background, the image, or both.
 struct NamedSide {
   bool background, image;
   const char* key;
@@ -41,7 +41,7 @@ constexpr NamedSide kSides[] = {{true, true, "", "the image and its background h
                                 {false, true, "image_", "the image, not its background, has "},
                                 {true, false, "background_", "the background, not the image, has "}};
 
-/// Turns that keep the size, the likelier ones first.
+/// Returns transformations that keep the size, likely ones first.
 std::vector<NamedTurn> turns_of(const FloatImage& image) {
   std::vector<NamedTurn> turns{{{.left_right = true, .top_bottom = true}, "turned_180", "been turned by 180°"},
                                {{.left_right = true}, "mirrored_left_right", "been mirrored left to right"},

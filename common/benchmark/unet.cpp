@@ -3,7 +3,7 @@
 namespace tacipc {
 namespace {
 
-/// Codes are divided by these, so that what the network sees is of the order of one.
+/// Divisors of 8-bit values, which bring the network's input to the order of one.
 constexpr double kChangeCodes = 32.0, kReferenceCodes = 128.0;
 
 }  // namespace

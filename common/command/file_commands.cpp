@@ -20,7 +20,7 @@ int run_command(const std::string& name, CLI::App& app, const std::vector<std::s
                 const std::function<void()>& body) {
   app.name("tacipc " + name);
   try {
-    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // it takes them from the back
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes arguments from the back
     body();
     if (std::fflush(stdout) != 0) throw DataError("standard output cannot be written");
     return 0;
@@ -80,7 +80,7 @@ int set_command(const std::vector<std::string>& arguments) {
   app.add_option("file", file, "the configuration")->required()->type_name("FILE");
   app.add_option("change", changes, "what to change")->type_name("CHANGE");
   std::vector<std::string> marked = arguments;
-  // What takes a key out is no flag.
+  // A change that removes a key begins with - but is not a flag.
   if (!marked.empty() && !marked.front().starts_with('-')) marked.insert(marked.begin() + 1, "--");
   return run_command("set", app, marked, [&] { fmt::print("{}", changed_configuration(file, changes)); });
 }

@@ -1,4 +1,4 @@
-// What scripts ask of records, configurations and tables, by name: `tacipc get`, `set`, `table`, `paths`.
+// Commands for scripts on records, configurations and tables: `tacipc get`, `set`, `table`, `paths`.
 #pragma once
 
 #include <filesystem>
@@ -8,33 +8,37 @@
 
 namespace tacipc {
 
-/// A command of the program tacipc that is no stage. `arguments` are those behind its name. It prints on standard
-/// output; the exit code is 0 done, 1 not there or not readable, 2 wrong arguments or configuration.
+/// A command of the program tacipc that is not a stage. It takes the arguments after its name, prints on standard
+/// output, and returns an exit code: 0 done, 1 missing or unreadable, 2 wrong arguments or configuration.
 struct FileCommand {
   const char* name;
   const char* summary;
   int (*run)(const std::vector<std::string>& arguments);
 };
 
-/// In the order in which they are listed. Their flags are all in one unit, for reading CLI11 takes a compiler seconds.
+/// Returns the commands in the order in which they are listed. All flags are parsed in one unit, because compiling
+/// CLI11 takes seconds.
 const std::vector<FileCommand>& file_commands();
 
-/// What `tacipc get` is asked for.
+/// Arguments of `tacipc get`.
 struct GetRequest {
   std::string file;                     // record or configuration
   std::vector<std::string> keys;        // paths to values
-  std::optional<std::string> fallback;  // printed for what is not there
-  bool only_keys = false;               // a map's keys instead of what they hold
-  std::vector<std::string> fields;      // of a list of maps: these of each
+  std::optional<std::string> fallback;  // printed for missing values
+  bool only_keys = false;               // print the keys of a map instead of its values
+  std::vector<std::string> fields;      // fields to print from each map of a list
 };
 
-/// The lines to print. \throw DataError a key is not there and has no fallback
+/// Returns the lines to print.
+/// \throw DataError if a key is missing and there is no fallback
 std::string get_values(const GetRequest& request);
 
-/// A configuration with changes KEY=VALUE, +KEY=VALUE, -KEY made. \throw ConfigError, UsageError
+/// Returns a configuration after changes KEY=VALUE, +KEY=VALUE, -KEY.
+/// \throw ConfigError if a key is missing or misplaced
+/// \throw UsageError if a change has no valid form
 std::string changed_configuration(const std::filesystem::path& file, const std::vector<std::string>& changes);
 
-/// What `tacipc table` is asked for.
+/// Arguments of `tacipc table`.
 struct TableRequest {
   std::string file;                     // CSV
   std::vector<std::string> columns;     // empty: all
@@ -42,10 +46,12 @@ struct TableRequest {
   bool only_count = false;
 };
 
-/// Prints rows as they are read: a table may be larger than memory. \throw DataError, UsageError
+/// Prints rows while reading them: a table may be larger than memory.
+/// \throw DataError if the table cannot be read
+/// \throw UsageError if an argument is not valid
 void print_table(const TableRequest& request);
 
-/// Files that the paths of a motion name, as seen from here.
+/// Returns the files that the paths of a motion name, relative to the working directory.
 std::vector<std::filesystem::path> files_of_motion(const std::filesystem::path& motion);
 
 }  // namespace tacipc

@@ -36,7 +36,7 @@ struct Group {
   std::vector<Entry> entries;
 };
 
-/// The output of a program that is running.
+/// Reads the output of a running program.
 class Running {
  public:
   explicit Running(const std::string& command) : pipe_(::popen(command.c_str(), "r"), ::pclose) {}
@@ -56,9 +56,9 @@ std::string shell_word(const std::string& text) {
   return word + "'";
 }
 
-/// Every command, grouped; each stage is asked for its own summary.
+/// Returns all commands in groups, with each stage's own summary.
 std::vector<Group> all_commands(const BuildFacts& facts) {
-  std::vector<Running> running;  // all at once: a program needs a moment to load its libraries
+  std::vector<Running> running;  // all run at once, because loading libraries takes a moment
   for (const BuildFacts::StageName& stage : facts.stages)
     running.emplace_back(shell_word(program_of(stage.name).string()) + " --summary 2>/dev/null");
   std::vector<Group> groups{{"files", {}}};
@@ -111,7 +111,7 @@ int print(const std::string& text) {
   return std::fflush(stdout) == 0 ? 0 : 1;
 }
 
-/// Does not come back unless the program cannot be run.
+/// Replaces this process by a stage. Returns only if the program cannot be run.
 int become_stage(const std::string& name, const std::vector<std::string>& arguments) {
   const std::string path = program_of(name).string();
   std::vector<std::string> words{path};
@@ -143,7 +143,7 @@ int run(const std::string& name, const std::vector<std::string>& arguments, cons
 }  // namespace
 
 int front_door(const std::vector<std::string>& arguments, const BuildFacts& facts) {
-  // OpenBLAS would start a thread per core as it is loaded, which no stage wants.
+  // OpenBLAS would start a thread per core when it is loaded, which no stage needs.
   ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
   if (arguments.empty()) {
     fmt::print(stderr, "{}", list(all_commands(facts)));

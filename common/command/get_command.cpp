@@ -11,7 +11,7 @@
 namespace tacipc {
 namespace {
 
-/// A single value as a line, a list as one line per item, a map as the lines of its YAML.
+/// Returns a single value as a line, a list as one line per item, a map as lines of YAML.
 std::string lines_of(const Value& value, const std::string& place) {
   if (const auto* text = std::get_if<std::string>(&value.data())) return *text + "\n";
   if (std::holds_alternative<Value::Map>(value.data())) return to_yaml(value);
@@ -24,7 +24,7 @@ std::string lines_of(const Value& value, const std::string& place) {
   return lines;
 }
 
-/// Of each map of a list a line: what it holds by these keys, separated by tabs.
+/// Returns a line for each map of a list: its values at these keys, separated by tabs.
 std::string rows_of(const Value& value, const GetRequest& request, const std::string& place) {
   const auto* list = std::get_if<Value::List>(&value.data());
   if (!list) throw DataError("{}: is not a list", place);

@@ -11,7 +11,8 @@
 namespace tacipc {
 namespace {
 
-/// Index of a column. \throw DataError with the columns there are
+/// Returns the index of a column.
+/// \throw DataError, listing the columns there are
 std::size_t column(const CsvReader& table, const std::string& file, const std::string& name) {
   const auto& names = table.columns();
   const auto found = std::ranges::find(names, name);
@@ -20,7 +21,7 @@ std::size_t column(const CsvReader& table, const std::string& file, const std::s
   return static_cast<std::size_t>(found - names.begin());
 }
 
-/// A field as one word of a line.
+/// Appends a field as one word of a line.
 void append(std::string& line, const std::string& field) {
   for (const char c : field) line += c == '\t' || c == '\n' || c == '\r' ? ' ' : c;
 }

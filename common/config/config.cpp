@@ -49,7 +49,7 @@ std::optional<std::string> nearest_word(std::string_view word, const std::vector
   std::optional<std::string> best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : known) {
-    // Words whose lengths differ so much cannot be nearer, and a word may be as long as a file.
+    // Words whose lengths differ this much cannot be nearer, and a word may be as long as a file.
     if (std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size()) >= best_distance) continue;
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < best_distance) {
@@ -106,18 +106,18 @@ std::optional<std::string> ConfigReader::to_scalar(const Node& node, const std::
 namespace {
 
 struct UnitBound {
-  std::string_view unit;  // with which the key ends
+  std::string_view unit;  // suffix of the key
   double largest;
 };
-// A hundred times what is met around a tactile sensor, and more. Beyond it a motion would never end, or a square
-// overflow.
+// Bounds of at least a hundred times the values around a tactile sensor. Beyond them a motion would never end, or a
+// square would overflow.
 constexpr UnitBound kUnitBounds[] = {{"_mm", 1e4}, {"_um", 1e7},    {"_px", 1e5},   {"_deg", 3.6e4},
                                      {"_s", 1e9},  {"_n", 1e6},     {"_pa", 1e13},  {"_g", 1e6},
                                      {"_kg", 1e3}, {"_kg_m3", 1e7}, {"_m_s2", 1e4}, {"_hz", 1e6}};
-constexpr double kLargest = 1e15;  // without one of these units
+constexpr double kLargest = 1e15;  // bound for keys without these units
 
 double largest_of(std::string_view key) {
-  key = key.substr(0, key.find('['));  // of an item of a list
+  key = key.substr(0, key.find('['));  // key of the list, for an item
   for (const UnitBound& bound : kUnitBounds)
     if (key.ends_with(bound.unit)) return bound.largest;
   return kLargest;
@@ -154,7 +154,7 @@ double inside(const Range& range) {
 }
 }  // namespace
 
-// Where a key must be there, its absence is reported, and it is read like one that need not be.
+// A missing required key is reported, then read like an optional one.
 double ConfigReader::number(const std::string& key, const Range& range) {
   find(key, true);
   return number_or(key, inside(range), range);
@@ -343,7 +343,7 @@ ConfigReader ConfigReader::section(const std::string& key) {
     return ConfigReader(document_, node);
   }
   if (node) add_fault(*node, path_of(key), fmt::format("expected a map, found {}", node->kind_name()));
-  // Reading continues inside an empty map of a document of its own, whose faults would only repeat this one.
+  // Reading continues inside an empty map of a separate document, whose errors would only repeat this one.
   return from_text("{}", document_->name);
 }
 

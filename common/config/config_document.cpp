@@ -27,7 +27,7 @@ std::string ConfigReader::Node::path() const {
 
 namespace {
 
-/// yaml-cpp reads the escapes \N and \_ (U+0085, U+00A0) as one byte each, of text that is otherwise UTF-8.
+/// Replaces the escapes \N and \_ (U+0085, U+00A0), which yaml-cpp reads as one byte each, by their UTF-8 characters.
 std::string with_whole_characters(std::string_view text) {
   std::string whole;
   for (std::size_t at = 0; at < text.size();) {
@@ -41,7 +41,7 @@ std::string with_whole_characters(std::string_view text) {
 
 }  // namespace
 
-/// Builds the tree from what yaml-cpp parses, part by part: what is beyond a limit is refused before it is built.
+/// Builds the tree from yaml-cpp's events, part by part, so that content beyond a limit is refused before it is built.
 struct ConfigReader::Convert final : YAML::EventHandler {
   static constexpr std::size_t kMaxDepth = 32;
   static constexpr std::size_t kMaxValues = 1'000'000;
@@ -67,7 +67,7 @@ struct ConfigReader::Convert final : YAML::EventHandler {
   void OnSequenceEnd() override { open_.pop_back(); }
   void OnMapEnd() override { open_.pop_back(); }
 
-  /// yaml-cpp knows no alias before its anchor, but one inside the map or list that the anchor stands at.
+  /// Handles an alias. yaml-cpp refuses aliases before their anchor, but not inside the map or list with the anchor.
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const Node* original = anchors_.at(anchor);
     if (std::ranges::any_of(open_, [&](const Open& o) { return o.node == original; }))
@@ -79,8 +79,8 @@ struct ConfigReader::Convert final : YAML::EventHandler {
   /// A map or list that has not ended.
   struct Open {
     Node* node;
-    bool has_key = false;            // of a map: the next value is that of `key`
-    std::optional<Node::Entry> key;  // without a value; none where it was refused
+    bool has_key = false;            // in a map: the next value belongs to `key`
+    std::optional<Node::Entry> key;  // entry without value; empty if it was refused
   };
 
   [[noreturn]] void refuse(const YAML::Mark& mark, const std::string& reason) {
@@ -111,7 +111,7 @@ struct ConfigReader::Convert final : YAML::EventHandler {
     open_.push_back({.node = node, .key = std::nullopt});
   }
 
-  /// Puts a value, or a key, where it belongs.
+  /// Attaches a value or a key to the open map or list.
   Node* attach(std::unique_ptr<Node> node, const YAML::Mark& mark) {
     if (documents_ > 1)
       throw ConfigError({fmt::format("{}:{}:1: a second document begins; only one is read", printable(document_.name),
@@ -155,7 +155,7 @@ struct ConfigReader::Convert final : YAML::EventHandler {
                     fmt::format("a key of more than {} bytes: '{}'", kMaxKey, excerpt(word.scalar)));
       return std::nullopt;
     }
-    // yaml-cpp takes both of two equal keys, silently.
+    // yaml-cpp accepts both of two equal keys, silently.
     if (!map.entry_places.add(word.scalar, map.entries.size())) {
       document_.add(line, column, joined_path(map.path(), word.scalar),
                     fmt::format("key given twice (first in line {})", map.find(word.scalar)->line));
@@ -190,10 +190,11 @@ struct ConfigReader::Convert final : YAML::EventHandler {
   std::size_t documents_ = 0, values_ = 0, text_ = 0;
   std::vector<Open> open_;
   std::unordered_map<YAML::anchor_t, const Node*> anchors_;
-  std::vector<std::unique_ptr<Node>> unused_;  // keys, and what belongs to refused ones: anchors may stand there
+  std::vector<std::unique_ptr<Node>> unused_;  // keys, and content of refused keys, in which anchors may be
 };
 
-/// \throw ConfigError at the first byte that YAML does not have; yaml-cpp takes some of them for something else.
+/// Checks the bytes.
+/// \throw ConfigError at the first byte that YAML does not allow; yaml-cpp misreads some of them
 static void check_bytes(std::string_view text, const std::string& name) {
   int line = 1;
   std::size_t line_start = 0;
@@ -239,7 +240,7 @@ std::unique_ptr<ConfigReader::Document> ConfigReader::Document::parse(const std:
 }
 
 void ConfigReader::Document::add(int line, int column, const std::string& path, const std::string& reason) {
-  constexpr std::size_t kLongestPath = 200, kLongest = 600;  // bytes; both repeat what stands in the file
+  constexpr std::size_t kLongestPath = 200, kLongest = 600;  // bytes; both contain text of the file
   faults.push_back({line, column,
                     fmt::format("{}:{}:{}: {}{}{}", printable(name), line, column, excerpt(path, kLongestPath),
                                 path.empty() ? "" : ": ", excerpt(reason, kLongest))});

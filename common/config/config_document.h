@@ -1,4 +1,4 @@
-// What a ConfigReader reads from: the parsed file with the place of every value, and the faults met so far.
+// Parsed file behind a ConfigReader: values with their locations, and the errors found so far.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +13,11 @@
 
 namespace tacipc {
 
-/// Places of names in a list, found without looking at all of them. Of equal names the first counts.
+/// Maps names to their indices in a list. Of equal names the first counts.
 class NameIndex {
  public:
-  /// False if the name has a place already.
+  /// Adds a name.
+  /// \return false if the name has an index already
   bool add(const std::string& name, std::size_t place) {
     if (!places_) places_ = std::make_unique<Places>();
     return places_->emplace(name, place).second;
@@ -29,15 +30,16 @@ class NameIndex {
 
  private:
   using Places = std::unordered_map<std::string, std::size_t>;
-  std::unique_ptr<Places> places_;  // most values of a file are no maps
+  std::unique_ptr<Places> places_;  // null for values that are not maps, which are most
 };
 
+/// A value of the file, with its location and what readers did with it.
 struct ConfigReader::Node {
   enum class Kind { empty, scalar, list, map };
   Kind kind = Kind::empty;
   int line = 0;
   int column = 0;
-  const Node* parent = nullptr;  // that holds it as its `place`th entry or item
+  const Node* parent = nullptr;  // parent that holds this node as its `place`th entry or item
   std::size_t place = 0;
   std::string scalar;
   std::vector<std::unique_ptr<Node>> items;
@@ -50,15 +52,15 @@ struct ConfigReader::Node {
   };
   std::vector<Entry> entries;
   NameIndex entry_places;
-  std::vector<std::string> asked;  // every key a reader asked for, to suggest a near one
+  std::vector<std::string> asked;  // keys that readers asked for, used to suggest similar ones
   NameIndex asked_places;
-  bool read = false;  // a reader looked inside this map
+  bool read = false;  // whether a reader looked inside this map
   Value::Map resolved;
   NameIndex resolved_places;
   std::vector<std::pair<std::size_t, Node*>> resolved_children;
 
-  /// Keys and indices from the top to here. Not kept, as with long keys all paths together may be much larger than the
-  /// file.
+  /// Returns keys and indices from the top to this node. Not stored, because with long keys all paths together may be
+  /// much larger than the file.
   std::string path() const;
   Entry* find(const std::string& key) {
     const auto at = entry_places.find(key);
@@ -68,6 +70,7 @@ struct ConfigReader::Node {
     const auto at = entry_places.find(key);
     return at ? &entries[*at] : nullptr;
   }
+  /// Stores the value that a reader returned.
   void resolve(const std::string& key, Value value) {
     resolved_places.add(key, resolved.size());
     resolved.emplace_back(key, std::move(value));
@@ -83,6 +86,7 @@ struct ConfigReader::Node {
   }
 };
 
+/// The parsed file.
 struct ConfigReader::Document {
   std::string name;
   std::unique_ptr<Node> root;
@@ -92,16 +96,17 @@ struct ConfigReader::Document {
     std::string text;
   };
   std::vector<Fault> faults;
-  static constexpr std::size_t kMaxFaults = 100;  // that are told
+  static constexpr std::size_t kMaxFaults = 100;  // largest number of reported errors
   bool accepts_sources = false;
 
-  /// \throw ConfigError if the text is not YAML, or more than the limits that docs/files.md names
+  /// Parses a text.
+  /// \throw ConfigError if the text is not YAML, or exceeds the limits in docs/files.md
   static std::unique_ptr<Document> parse(const std::string& text, const std::string& name);
   void add(int line, int column, const std::string& path, const std::string& reason);
-  /// Throws what was collected, in file order.
+  /// Throws the collected errors, in file order.
   [[noreturn]] void raise();
   void collect_unknown(const Node& node);
-  /// Whether an entry says where its sibling comes from; what it says wrongly becomes a fault.
+  /// Returns whether an entry states the source of its sibling; an invalid source becomes an error.
   bool is_source(const Node& node, const Node::Entry& entry);
   static void collect_sources(const Node& node, const std::string& inherited,
                               std::vector<std::pair<std::string, std::string>>& out);
@@ -109,7 +114,7 @@ struct ConfigReader::Document {
   static Value content(const Node& node);
 };
 
-/// path.key, or key at the top.
+/// Returns path.key, or key at the top.
 std::string joined_path(const std::string& path, const std::string& key);
 
 }  // namespace tacipc

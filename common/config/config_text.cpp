@@ -15,10 +15,11 @@
 namespace tacipc {
 namespace {
 
-/// All that a text says. \throw ConfigError
+/// Returns the whole content of a text.
+/// \throw ConfigError if it is not valid
 Value content_of(const std::string& text, const std::string& name) {
   ConfigReader in = ConfigReader::from_text(text, name);
-  for (const std::string& key : in.keys()) in.ignore(key);  // any key may stand here, but once
+  for (const std::string& key : in.keys()) in.ignore(key);  // any key may occur, but only once
   in.finish();
   return in.content();
 }
@@ -32,7 +33,7 @@ struct Span {
   std::size_t end;
 };
 
-/// Where words of YAML end. Only what was parsed before is looked at, so brackets and quotes are known to close.
+/// Finds ends of YAML words. Scans only text that was parsed before, so that brackets and quotes are known to close.
 class Scanner {
  public:
   explicit Scanner(const std::string& text) : text_(text) {}
@@ -47,7 +48,7 @@ class Scanner {
     while (at < text_.size() && is_blank(text_[at])) ++at;
     return at;
   }
-  /// At the end of a line, or at a comment.
+  /// Returns whether `at` is at the end of a line, or at a comment.
   bool nothing_more(std::size_t at) const { return at >= text_.size() || text_[at] == '\n' || text_[at] == '#'; }
 
   std::size_t after_space(std::size_t at) const {
@@ -71,10 +72,10 @@ class Scanner {
     return at;
   }
 
-  /// Behind the bracket that closes the one here.
+  /// Returns the position after the bracket that closes the one at `at`.
   std::size_t after_brackets(std::size_t at) const {
     int depth = 0;
-    bool word_begins = false;  // a quote inside a word is none
+    bool word_begins = false;  // a quote inside a word is an ordinary character
     while (at < text_.size()) {
       const char c = text_[at];
       if (word_begins && (c == '"' || c == '\'')) {
@@ -95,7 +96,7 @@ class Scanner {
     return at;
   }
 
-  /// Behind a word without quotes; within brackets it may go on in the next line.
+  /// Returns the position after a word without quotes, which may continue in the next line within brackets.
   std::size_t after_plain(std::size_t at, bool in_brackets) const {
     std::size_t end = at;
     for (; at < text_.size(); ++at) {
@@ -107,7 +108,8 @@ class Scanner {
     return end;
   }
 
-  /// Behind the lines that are indented more than `column`, from the one at `at` on; items of a list may stand at it.
+  /// Returns the position after the lines, from the one at `at`, that are indented more than `column`; list items may
+  /// be at it.
   std::size_t after_lines(std::size_t at, std::size_t column, bool list, bool comments_count) const {
     std::size_t end = at;
     for (at = end_of_line(at) + 1; at < text_.size(); at = end_of_line(at) + 1) {
@@ -123,7 +125,8 @@ class Scanner {
     return end;
   }
 
-  /// The value that follows a colon or dash at `at`; `column` is that of its key or dash. Empty where nothing stands.
+  /// Returns the range of the value that follows a colon or dash at `at`; empty if there is no value.
+  /// \param column column of the key or dash
   Span value_after(std::size_t at, std::size_t column, const YAML::Node& value, bool in_brackets) const {
     if (value.IsNull() && nothing_more(after_blanks(at))) return {at, at};
     const std::size_t begin = after_space(at);
@@ -147,15 +150,15 @@ class Scanner {
   const std::string& text_;
 };
 
-/// A key and what it holds, or an item of a list.
+/// A key and its value, or an item of a list, in the text.
 struct Place {
   YAML::Node value;
-  YAML::Node holder;      // map or list
-  bool in_brackets;       // the holder is written with them, or stands within some
-  std::size_t key = 0;    // where key or item begins
-  std::size_t after = 0;  // behind the colon or dash
+  YAML::Node holder;      // map or list that holds it
+  bool in_brackets;       // the holder is written with brackets, or inside some
+  std::size_t key = 0;    // start of the key or item
+  std::size_t after = 0;  // position after the colon or dash
   std::size_t column = 0;
-  Span span{};  // of the value
+  Span span{};  // range of the value
 };
 
 Place place_of(const std::string& text, const YAML::Node& root, const std::vector<KeyStep>& steps) {
@@ -186,7 +189,7 @@ Place place_of(const std::string& text, const YAML::Node& root, const std::vecto
       const bool quoted = text[place.key] == '"' || text[place.key] == '\'';
       const std::size_t colon =
           scan.after_blanks(quoted ? scan.after_quoted(place.key) : std::min(place.key + key.size(), text.size()));
-      // Of a key that is written in another way (`? key`) the place is wrong, which shows when the text is read back.
+      // For a key in another notation (`? key`) this position is wrong; reading back the text detects that.
       place.after = colon < text.size() ? colon + 1 : place.key;
       place.column = scan.column(place.key);
     }
@@ -195,7 +198,7 @@ Place place_of(const std::string& text, const YAML::Node& root, const std::vecto
   return place;
 }
 
-/// Where the steps lead in a copy of the content.
+/// Returns the value at the end of the steps in a copy of the content.
 Value& at_steps(Value& root, std::span<const KeyStep> steps) {
   Value* at = &root;
   for (const KeyStep& step : steps) {
@@ -209,7 +212,8 @@ Value& at_steps(Value& root, std::span<const KeyStep> steps) {
   return *at;
 }
 
-/// What a value on one line says. \throw UsageError
+/// Parses a value on one line.
+/// \throw UsageError if it is not valid
 Value value_of(const std::string& yaml, std::string_view path) {
   const std::string what = fmt::format("'{}'", yaml);
   if (yaml.find('\n') != std::string::npos || yaml.find_first_not_of(" \t") == std::string::npos)
@@ -252,7 +256,7 @@ void ConfigText::accept(std::string text, const Value& wanted, std::size_t at, s
       return;
     }
   } catch (const ConfigError&) {
-    // Not even readable any more.
+    // The text is not even readable any more.
   }
   refuse(at, path, "cannot be changed the way it is written here");
 }
@@ -267,7 +271,7 @@ void ConfigText::set(std::string_view path, const std::string& yaml) {
   const auto [begin, end] = place.span;
   std::string text = text_;
   if (begin == end || scan.end_of_line(place.after) < begin) {
-    // Behind the colon; what stood in the lines below goes, a comment behind the colon stays.
+    // The value goes after the colon; lines below are removed, a comment after the colon stays.
     const std::size_t line_end = begin == end ? end : scan.end_of_line(place.after);
     text.erase(line_end, end - line_end).insert(place.after, fmt::format(" {}", yaml));
   } else {
@@ -347,7 +351,7 @@ void ConfigText::remove(std::string_view path) {
   const std::size_t end = std::max(place.span.end, place.after), line = scan.start_of_line(place.key);
   std::string text = text_;
   if (map.size() == 1) {
-    // A section without keys would be no section any more.
+    // A section without keys would no longer be a section.
     place.in_brackets ? text.erase(place.key, end - place.key) : text.replace(place.key, end - place.key, "{}");
   } else if (!place.in_brackets && scan.after_blanks(line) == place.key) {
     text.erase(line, scan.end_of_line(end) + 1 - line);

@@ -1,4 +1,4 @@
-// A configuration of which single values are changed in its text, so that layout and comments of the rest stay.
+// Changes single values in the text of a configuration; layout and comments of the rest stay.
 #pragma once
 
 #include <string>
@@ -8,26 +8,32 @@
 
 namespace tacipc {
 
-/// Paths are those of key_path.h, values are YAML on one line (`0.5`, `[1, 2]`, `{kind: press}`). Every change is read
-/// back by ConfigReader and compared with what was asked for.
+/// Text of a configuration. Paths are as in key_path.h; values are YAML on one line (`0.5`, `[1, 2]`, `{kind: press}`).
+/// Every change is read back by ConfigReader and compared with the intended content.
 class ConfigText {
  public:
-  /// `name` stands for the file in messages. \throw ConfigError as ConfigReader
+  /// \param name stands for the file in messages
+  /// \throw ConfigError as ConfigReader
   ConfigText(std::string text, std::string name);
 
-  /// Changes a value. \throw ConfigError if it is not there
+  /// Changes a value.
+  /// \throw ConfigError if it does not exist
   void set(std::string_view path, const std::string& yaml);
-  /// Adds a key, and the sections that lead to it. \throw ConfigError if it is there
+  /// Adds a key, and the sections that lead to it.
+  /// \throw ConfigError if it exists
   void add(std::string_view path, const std::string& yaml);
-  /// Takes a key out. \throw ConfigError if it is not there
+  /// Removes a key.
+  /// \throw ConfigError if it does not exist
   void remove(std::string_view path);
 
   const std::string& text() const { return text_; }
 
  private:
-  /// Takes `text` if it says what `wanted` does. \throw ConfigError at the place of the change
+  /// Accepts `text` if its content equals `wanted`.
+  /// \throw ConfigError at the location of the change otherwise
   void accept(std::string text, const Value& wanted, std::size_t at, std::string_view path);
-  /// \throw ConfigError `FILE:LINE:COLUMN: path: reason` with the place of an offset
+  /// Fails at an offset in the text.
+  /// \throw ConfigError `FILE:LINE:COLUMN: path: reason`
   [[noreturn]] void refuse(std::size_t at, std::string_view path, std::string_view reason) const;
 
   std::string text_;

@@ -9,7 +9,7 @@
 namespace tacipc {
 namespace {
 
-/// The rest of a path after `word`, or nothing if it does not begin with it.
+/// Returns the rest of a path after `word`; null if the path does not begin with it.
 const char* after(std::string_view path, std::string_view word) {
   if (!path.starts_with(word)) return nullptr;
   if (path.size() == word.size()) return path.data() + path.size();
@@ -18,7 +18,7 @@ const char* after(std::string_view path, std::string_view word) {
   return next == '[' ? path.data() + word.size() : nullptr;
 }
 
-/// Index of `[index]` at the start of a path, which moves behind it; size of the list where there is none.
+/// Returns the index of `[index]` at the start of a path and removes it; the list's size if there is none.
 std::size_t take_index(std::string_view& path, std::size_t size) {
   std::size_t index = 0;
   if (path.empty() || path.front() != '[') return size;

@@ -1,4 +1,4 @@
-// Values inside a configuration or record by a path such as `gel.layers[0].thickness_m`.
+// Finds values inside a configuration or record by a path such as `gel.layers[0].thickness_m`.
 #pragma once
 
 #include <cstddef>
@@ -11,27 +11,27 @@
 
 namespace tacipc {
 
-/// From a map to what a key holds, or from a list to an item.
+/// Step of a path: a key of a map, or an index of a list.
 using KeyStep = std::variant<std::string, std::size_t>;
 
-/// How far a path leads.
+/// Result of following a path.
 struct KeyPath {
-  std::vector<KeyStep> steps;  // that are there
-  std::string rest;            // of the path, which is not there; empty: all of it is
-  const Value* at;             // where the steps lead
+  std::vector<KeyStep> steps;  // steps that exist
+  std::string rest;            // rest of the path, which does not exist; empty if the whole path exists
+  const Value* at;             // value at the end of the steps
 };
 
-/// Follows a path: keys joined by points, items of lists by their index in brackets. Keys that hold points or brackets
-/// themselves, such as names of files, are found as they are: the longest key that fits is taken.
+/// Follows a path: keys joined by points, items of lists by their index in brackets. Keys that contain points or
+/// brackets, such as file names, are also found: the longest matching key is taken.
 KeyPath follow(const Value& root, std::string_view path);
 
-/// The path as text.
+/// Returns the path as text.
 std::string to_text(const std::vector<KeyStep>& steps);
 
-/// The first key of a path.
+/// Returns the first key of a path.
 std::string_view first_key(std::string_view path);
 
-/// ` (did you mean …?)` with the key of a map that is near to a word; empty where there is none.
+/// Returns ` (did you mean …?)` with the key of a map that is similar to a word; empty if there is none.
 std::string suggestion(const Value& map, std::string_view word);
 
 }  // namespace tacipc

@@ -1,4 +1,4 @@
-// Handles of the HDF5 library, closed when they go; shared by its reader and writer alone.
+// Handles of the HDF5 library that close themselves; used by the reader and writer only.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace tacipc::hdf5 {
 
-/// The library's hid_t, whose header only .cpp files include.
+/// Equals the library's hid_t, whose header only .cpp files include.
 using Id = std::int64_t;
 
-/// To be called before anything else of the library. Messages are ours; links into other files lead nowhere; and
-/// nothing is left to the library's own end: a file that could not be closed (a full disk) stays open in it, and when
-/// it closes that once more at the end of the program it crashes.
+/// Prepares the library; must be called before any other call of it. Messages are replaced by this project's, links
+/// into other files are disabled, and the library's exit handler is turned off: a file that could not be closed (a full
+/// disk) stays open in the library, which would crash when it closes the file again at the end of the program.
 void begin();
 
-/// A new handle of IEEE 754 binary16, which the library has no name for.
+/// Returns a new handle of IEEE 754 binary16, for which the library has no name.
 Id half_type();
 
 /// Owns an identifier; Close is the library's function for its kind.
@@ -38,7 +38,7 @@ class Handle {
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   operator Id() const { return id_; }
-  /// Closes now and tells whether that worked.
+  /// Closes now; returns whether that succeeded.
   bool close() { return Close(std::exchange(id_, -1)) >= 0; }
 
  private:

@@ -28,15 +28,15 @@ namespace {
 
 constexpr const char* kLibrary = "libhdf5";
 constexpr std::size_t kLargestFrame = std::size_t{256} << 20, kLargestWhole = std::size_t{1} << 30;  // bytes
-constexpr std::size_t kMostNumbers = 1 << 20;                                                        // of an attribute
-constexpr std::size_t kMostPacked = 1032;  // gzip packs no more bytes into one
+constexpr std::size_t kMostNumbers = 1 << 20;  // limit of an attribute
+constexpr std::size_t kMostPacked = 1032;      // largest ratio of gzip
 
 hdf5::Id open_file(const std::filesystem::path& path) {
   hdf5::begin();
   return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
 }
 
-/// Nothing for a space that is no simple one.
+/// Returns the extents; nothing if the space is not simple.
 std::optional<std::vector<hsize_t>> extents_of(const Space& space) {
   const int rank = H5Sget_simple_extent_ndims(space);
   if (rank < 0 || H5Sget_simple_extent_type(space) == H5S_NULL) return std::nullopt;
@@ -45,7 +45,7 @@ std::optional<std::vector<hsize_t>> extents_of(const Space& space) {
   return extents;
 }
 
-/// Of all extents and `size`; nothing if it is more than `most`.
+/// Returns the product of all extents and `size`; nothing if it exceeds `most`.
 std::optional<std::size_t> product(const std::vector<hsize_t>& extents, std::size_t size, std::size_t most) {
   if (std::ranges::find(extents, hsize_t{0}) != extents.end()) return 0;
   for (const hsize_t extent : extents) {
@@ -61,7 +61,7 @@ Value number_value(T value) {
   return Value(static_cast<std::int64_t>(value));
 }
 
-/// A number, a list or a list of lists, row-major.
+/// Makes a number, a list or a list of lists from row-major numbers.
 template <typename T>
 Value shaped(const std::vector<T>& values, const std::vector<hsize_t>& extents) {
   if (extents.empty()) return number_value(values.front());
@@ -89,12 +89,13 @@ herr_t add_attribute_name(hid_t, const char* name, const H5A_info_t*, void* name
   return 0;
 }
 
-/// How the frames of a dataset are packed.
+/// Compression of a dataset's frames.
 struct Packing {
   bool deflated = false, shuffled = false;
 };
 
-/// Nothing for filters that Hdf5Writer does not use. \param size of a number
+/// Returns the compression; nothing for filters that Hdf5Writer does not use.
+/// \param size bytes of a number
 std::optional<Packing> packing_of(const Properties& list, std::size_t size) {
   Packing packing;
   const int filters = H5Pget_nfilters(list);
@@ -114,7 +115,7 @@ std::optional<Packing> packing_of(const Properties& list, std::size_t size) {
   return packing;
 }
 
-/// The byte planes of shuffled numbers of `size` bytes as numbers again.
+/// Undoes the byte shuffle of numbers of `size` bytes.
 std::string unshuffled(const std::string& planes, std::size_t size) {
   std::string bytes(planes.size(), '\0');
   const std::size_t count = planes.size() / size;
@@ -123,7 +124,7 @@ std::string unshuffled(const std::string& planes, std::size_t size) {
   return bytes;
 }
 
-/// Exactly so many bytes; nothing if they are not in the stream.
+/// Decompresses exactly `size` bytes; nothing if the stream does not contain them.
 std::optional<std::string> inflated(const std::string& packed, std::size_t size) {
   const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> inflate(
       libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
@@ -134,13 +135,13 @@ std::optional<std::string> inflated(const std::string& packed, std::size_t size)
   return bytes;
 }
 
-/// A dataset whose numbers lie in its file, as many as it can hold.
+/// A dataset whose numbers are in its file, which is large enough for them.
 struct Stored {
   Dataset set;
   Type type;
   std::vector<hsize_t> extents;
-  std::size_t number_size = 0, size = 0;  // bytes: of a number, of all
-  std::optional<Packing> packing = {};    // of one that is in chunks, a frame each
+  std::size_t number_size = 0, size = 0;  // bytes: of a number, of all numbers
+  std::optional<Packing> packing = {};    // set if the dataset has chunks, one per frame
 
   std::size_t frame_size() const { return extents.empty() || extents[0] == 0 ? size : size / extents[0]; }
 };
@@ -161,7 +162,7 @@ struct Hdf5Reader::File {
     throw DataError("{}: {}: {}", name, printable(object), why);
   }
 
-  /// Whether a path leads to something by this file's own links.
+  /// Returns whether a path leads to an object by links within this file.
   bool leads(const std::string& path) const {
     if (path == "/") return true;
     for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
@@ -179,7 +180,8 @@ struct Hdf5Reader::File {
     return {leads(path) ? H5Oopen(id, path.c_str(), H5P_DEFAULT) : -1, name, path, "is not there"};
   }
 
-  /// \throw DataError unless its numbers lie in this file, in one piece or in chunks of a frame each
+  /// Opens a dataset.
+  /// \throw DataError unless its numbers are in this file, contiguous or in one chunk per frame
   Stored dataset(const std::string& path) const {
     Dataset set(leads(path) ? H5Dopen2(id, path.c_str(), H5P_DEFAULT) : -1, name, path, "is not a dataset");
     const Properties list(H5Dget_create_plist(set), name, path, "has no creation properties");
@@ -218,7 +220,7 @@ struct Hdf5Reader::File {
     return *packing;
   }
 
-  /// A frame that is a chunk. The library would trust what is in it to be of the right size.
+  /// Returns a frame that is a chunk. Checks its size, which the library would not.
   std::string chunk(const std::string& path, const Stored& stored, std::size_t frame) const {
     const auto unreadable = [&] { refuse(path, fmt::format("frame {} cannot be read", frame)); };
     std::vector<hsize_t> start(stored.extents.size(), 0);

@@ -26,7 +26,7 @@ namespace {
 constexpr int kDeflateLevel = 1;
 constexpr std::size_t kMetadataCache = 1 << 20;
 
-/// use(T{}) for the C++ type of a number in the file.
+/// Calls use(T{}) for the C++ type of a number in the file.
 template <typename Use>
 auto with_type(NumberType type, const Use& use) {
   switch (type) {
@@ -41,7 +41,7 @@ auto with_type(NumberType type, const Use& use) {
 
 std::vector<hsize_t> extents(const std::vector<std::size_t>& shape) { return {shape.begin(), shape.end()}; }
 
-/// Numbers of an attribute and how they lie: no extents, one or two.
+/// Numbers of an attribute and their extents: none, one or two.
 struct AttributeNumbers {
   std::vector<std::size_t> shape;
   std::vector<double> values;
@@ -79,7 +79,7 @@ void hdf5::begin() {
 }
 
 hdf5::Id hdf5::half_type() {
-  // Sign bit 15, five bits of exponent from bit 10, ten of mantissa, bias 15.
+  // Sign in bit 15, five bits of exponent from bit 10, ten bits of mantissa, bias 15.
   const Id type = H5Tcopy(H5T_IEEE_F32LE);
   if (type < 0 || H5Tset_fields(type, 15, 10, 5, 0, 10) < 0 || H5Tset_size(type, 2) < 0 || H5Tset_ebias(type, 15) < 0)
     return -1;
@@ -130,7 +130,7 @@ struct Hdf5Writer::File {
   using Id = hdf5::Id;
   std::string name;
   Handle<&H5Fclose> id;
-  Properties make_parents;  // links: missing parent groups
+  Properties make_parents;  // link properties: create missing parent groups
   Type half;
   std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor{
       libdeflate_alloc_compressor(kDeflateLevel), &libdeflate_free_compressor};
@@ -145,7 +145,7 @@ struct Hdf5Writer::File {
     if (H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18) < 0 || H5Pset_obj_track_times(creation, 0) < 0 ||
         H5Pget_mdc_config(access, &cache) < 0)
       return -1;
-    // Left alone the cache of groups and attributes grows with the file, up to 32 MB.
+    // By default the cache of groups and attributes grows with the file, up to 32 MB.
     cache.set_initial_size = true;
     cache.initial_size = cache.max_size = kMetadataCache;
     cache.min_size = kMetadataCache;
@@ -185,8 +185,8 @@ struct Hdf5Writer::File {
     return list;
   }
 
-  /// Writes one chunk of numbers of `size` bytes as HDF5's filters shuffle and gzip would store it, in a third of their
-  /// time. False if it cannot be written.
+  /// Writes one chunk of numbers of `size` bytes as HDF5's shuffle and gzip filters would, in a third of the time.
+  /// \return false if it cannot be written
   bool write_chunk(Id set, const std::vector<hsize_t>& start, std::string_view bytes, std::size_t size) const {
     const std::size_t count = bytes.size() / size,
                       room = libdeflate_zlib_compress_bound(compressor.get(), bytes.size());

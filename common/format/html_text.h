@@ -1,4 +1,4 @@
-// Text in HTML and SVG.
+// Escapes text for HTML and SVG.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace tacipc {
 
-/// Text as it may stand between tags and inside quoted attributes.
+/// Returns text that may stand between tags and inside quoted attributes.
 std::string html_text(std::string_view text);
 
 }  // namespace tacipc

@@ -46,7 +46,7 @@ std::vector<std::size_t> parse_shape(std::string_view text, const std::string& n
   return shape;
 }
 
-/// Number of values; nothing if it, or its size in bytes, cannot be counted.
+/// Returns the number of values; nothing if this number, or its size in bytes, overflows.
 std::optional<std::size_t> volume(const std::vector<std::size_t>& shape) {
   std::size_t count = 1;
   for (const std::size_t extent : shape)
@@ -60,7 +60,7 @@ std::string shape_text(const std::vector<std::size_t>& shape) {
   return text + (shape.size() == 1 ? ",)" : ")");
 }
 
-/// Column-major to row-major: walks the source in order while counting up the indices, first index fastest.
+/// Converts column-major to row-major: reads the source in order while counting up the indices, first index fastest.
 std::vector<double> from_fortran(const std::vector<double>& source, const std::vector<std::size_t>& shape) {
   std::vector<std::size_t> stride(shape.size(), 1);
   for (std::size_t d = shape.size(); d-- > 1;) stride[d - 1] = stride[d] * shape[d];
@@ -88,7 +88,8 @@ struct Header {
   std::size_t count = 0;
 };
 
-/// `begin` holds at least the header, or what there is of the file.
+/// Parses a header.
+/// \param begin the file's beginning: at least the header, unless the file is shorter
 Header parse_header(std::string_view begin, std::size_t file_size, const std::string& name) {
   if (!begin.starts_with(kMagic)) throw DataError("{}: is not an NPY file", name);
   ByteReader in(begin, name);

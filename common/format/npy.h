@@ -1,4 +1,4 @@
-// NumPy .npy files (version 1.0, C order, little-endian), the arrays between stages.
+// NumPy .npy files (version 1.0, C order, little-endian), in which stages exchange arrays.
 #pragma once
 
 #include <cstdint>
@@ -10,35 +10,40 @@
 
 namespace tacipc {
 
+/// An array in memory.
 struct NpyArray {
   std::vector<std::size_t> shape;
   std::vector<double> data;  // row-major
 };
 
-/// Writes f8, i4 or u1 values in row-major order. \throw DataError if the shape is too large or the file cannot be
-/// written.
+/// Writes f8, i4 or u1 values in row-major order.
+/// \throw DataError if the shape is too large or the file cannot be written
 void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape, const double* data);
 void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape, const std::int32_t* data);
 void write_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape, const std::uint8_t* data);
-/// The same as bytes, for values of any type as they lie in memory: `type` is NumPy's, such as "<f4".
+/// Returns the file's bytes for values of any type, given as they lie in memory; `type` is NumPy's, such as "<f4".
 std::string npy_bytes(const std::vector<std::size_t>& shape, std::string_view type, std::string_view values);
-/// Reads f8, f4, i8, i4 or u1 arrays in C or Fortran order. \throw DataError for anything else, with what was found.
+/// Reads f8, f4, i8, i4 or u1 arrays in C or Fortran order.
+/// \throw DataError for any other content, which the message names
 NpyArray read_npy(const std::filesystem::path& path);
-/// The same from the content of a file; `name` stands for it in messages.
+/// Reads from the content of a file; `name` stands for it in messages.
 NpyArray read_npy_bytes(std::string_view bytes, const std::string& name);
-/// read_npy() of an array that must have this shape. \throw DataError naming both shapes
+/// Reads an array that must have this shape.
+/// \throw DataError naming both shapes
 NpyArray read_npy(const std::filesystem::path& path, const std::vector<std::size_t>& shape);
 
-/// An array read one entry of its first axis at a time, for files that need not fit into memory.
+/// Reads an array one entry of its first axis at a time, for files that need not fit into memory.
 class NpyFrames {
  public:
-  /// \throw DataError as read_npy, and for Fortran order
+  /// \throw DataError as read_npy(), and for Fortran order
   explicit NpyFrames(const std::filesystem::path& path);
 
   const std::vector<std::size_t>& shape() const { return shape_; }
-  /// Shape of one entry: without the first axis.
+  /// Returns the shape of one entry: without the first axis.
   std::vector<std::size_t> frame_shape() const { return {shape_.begin() + 1, shape_.end()}; }
-  /// \throw DataError if the file has been cut since. \pre frame < shape()[0]
+  /// Reads one entry.
+  /// \pre frame < shape()[0]
+  /// \throw DataError if the file has been truncated meanwhile
   std::vector<double> frame(std::size_t frame);
 
  private:

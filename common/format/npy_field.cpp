@@ -12,7 +12,7 @@ namespace {
 
 using Shape = std::vector<std::size_t>;
 
-/// Nothing for a symbol that is not known.
+/// Returns the length; nothing for an unknown symbol.
 std::optional<std::size_t> length_of(const Extent& extent, const Extents& known) {
   if (const int* number = std::get_if<int>(&extent)) return static_cast<std::size_t>(*number);
   const auto found = known.find(std::get<std::string_view>(extent));
@@ -23,7 +23,7 @@ std::string in_brackets(const std::vector<std::string>& lengths) {
   return fmt::format("({}{})", fmt::join(lengths, ", "), lengths.size() == 1 ? "," : "");
 }
 
-/// "1, 17, 2" of the 1 · 17 · 2-th value.
+/// Returns the index of a value as text: "1, 17, 2".
 std::string index_text(std::size_t at, const Shape& shape) {
   Shape index(shape.size());
   for (std::size_t d = shape.size(); d-- > 0; at /= shape[d]) index[d] = at % shape[d];

@@ -1,4 +1,4 @@
-// An array between stages as it is declared: its file, type, shape, unit and meaning, each said once.
+// Declaration of an array between stages: file, type, shape, unit and meaning, each stated once.
 #pragma once
 
 #include <filesystem>
@@ -12,37 +12,41 @@
 
 namespace tacipc {
 
+/// Number type of a file: 64-bit float, 32-bit integer, or byte.
 enum class NpyType { f8, i4, u1 };
 
-/// Length of an axis: a number, or a symbol that stands for the same number wherever it is used in a folder.
+/// Length of an axis: a number, or a symbol that stands for the same number in a whole folder.
 using Extent = std::variant<int, std::string_view>;
-/// What the symbols stand for, as far as it is known.
+/// Numbers for symbols, as far as they are known.
 using Extents = std::map<std::string_view, std::size_t>;
 
+/// Declaration of an array.
 struct NpyField {
   std::string file;
   NpyType type = NpyType::f8;
   std::vector<Extent> shape = {};
-  std::string unit = {};  // "code" of numbers that stand for words, which `meaning` lists
+  std::string unit = {};  // "code" for numbers that stand for words, which `meaning` lists
   std::string meaning = {};
-  bool finite = true;  // every value
+  bool finite = true;  // whether every value must be finite
 };
 
-/// "(frames, #V, 3)"; symbols that are known as their numbers.
+/// Returns "(frames, #V, 3)", with numbers for known symbols.
 std::string shape_text(const NpyField& field, const Extents& known = {});
 
-/// Compares a shape with the declared one and adds what the symbols in it stand for to `known`. \throw DataError naming
-/// both shapes
+/// Compares a shape with the declared one and adds its symbols' numbers to `known`.
+/// \throw DataError naming both shapes
 void match_shape(const NpyField& field, const std::vector<std::size_t>& shape, const std::string& name, Extents& known);
 
-/// \throw DataError naming the first value that is not finite, by its index
+/// Checks that all values are finite.
+/// \throw DataError naming the index of the first one that is not
 void check_finite(const NpyField& field, const NpyArray& array, const std::string& name);
 
-/// The whole array, checked by the two above.
+/// Reads the whole array and checks shape and values.
 NpyArray read_field(const NpyField& field, const std::filesystem::path& path, Extents& known);
 
-/// Writes the values, row-major, in the declared type and shape. \throw DataError if they are not as many as the shape
-/// says. \pre every symbol is known
+/// Writes values, row-major, in the declared type and shape.
+/// \pre every symbol is known
+/// \throw DataError if their number does not fit the shape
 void write_field(const NpyField& field, const std::filesystem::path& path, const Extents& known,
                  const std::vector<double>& values);
 

@@ -84,7 +84,7 @@ class Struct {
   int last_ = 0;
 };
 
-/// A column of values: its place in the schema, and how often lists repeat above it.
+/// A leaf of the schema: its path, and the repetition of lists above it.
 struct Leaf {
   std::vector<std::string> path;
   int type;
@@ -125,7 +125,7 @@ void add_schema(const ParquetColumn& column, std::vector<Struct>& schema, std::v
   leaves.push_back({path, physical_type(column.type)});
 }
 
-/// Runs of equal levels behind their length in bytes.
+/// Encodes runs of equal levels, preceded by their length in bytes.
 class Levels {
  public:
   void add(std::uint64_t count, int level) {
@@ -145,7 +145,7 @@ class Levels {
 
  private:
   void flush() {
-    if (count_ > 0) runs_ += varint(count_ << 1) + static_cast<char>(level_);  // of at most 255: one byte
+    if (count_ > 0) runs_ += varint(count_ << 1) + static_cast<char>(level_);  // value of at most 255: one byte
     count_ = 0;
   }
   std::string runs_;
@@ -153,7 +153,8 @@ class Levels {
   int level_ = -1;
 };
 
-/// Repetition and definition levels of full lists: at which list each value begins anew, and that all are there.
+/// Returns repetition and definition levels of full lists: the list at which each value starts anew, and that all
+/// exist.
 std::string levels_of(const std::vector<std::size_t>& shape, std::size_t rows) {
   if (shape.empty()) return "";
   const int depth = static_cast<int>(shape.size());
@@ -161,7 +162,7 @@ std::string levels_of(const std::vector<std::size_t>& shape, std::size_t rows) {
   for (const std::size_t extent : shape) values *= extent;
   Levels repetition, definition;
   for (std::size_t v = 0; v < values; v += shape.back()) {
-    // How many of the inner lists end before this value.
+    // Number of inner lists that end before this value.
     int level = depth - 1;
     std::size_t block = shape.back();
     for (; level > 0; --level) {

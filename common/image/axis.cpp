@@ -9,7 +9,7 @@
 namespace tacipc {
 namespace {
 
-/// A bound that misses a tick by rounding alone still counts as being on it.
+/// Tolerance within which a bound counts as on a tick.
 constexpr double kSlack = 1e-9;
 
 }  // namespace

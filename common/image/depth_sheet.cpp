@@ -16,7 +16,7 @@ ByteImage depth_sheet(const std::vector<DepthRow>& rows) {
   float deepest = 1e-6F;
   for (const DepthRow& row : rows)
     for (const float depth : row.truth_mm.pixels)
-      if (depth > deepest) deepest = depth;  // NaN is not
+      if (depth > deepest) deepest = depth;  // false for NaN
   ByteImage sheet(4 * width - kGap, static_cast<int>(rows.size()) * height - kGap, 3, 255);
   int top = 0;
   for (const DepthRow& row : rows) {

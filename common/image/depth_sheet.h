@@ -1,4 +1,4 @@
-// A picture of what a network makes of images: for people.
+// A sheet of pictures that compares a network's depth with the truth.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,16 @@
 
 namespace tacipc {
 
-/// A row of the sheet.
+/// One row of the sheet.
 struct DepthRow {
   ByteImage image;
   FloatImage truth_mm;
   FloatImage depth_mm;
 };
 
-/// A row each: image, truth, what the network says, and their difference from −¼ to +¼ of the greatest truth of all
-/// rows (dark: too shallow; light: too deep). Depths from 0 to that. Pictures wider than 200 pixels are reduced.
+/// Draws a row each: image, truth, predicted depth, and their difference from −¼ to +¼ of the largest true depth of all
+/// rows (dark: too shallow; light: too deep). Depths are coloured from 0 to that largest depth. Pictures wider than 200
+/// pixels are reduced.
 /// \pre images of one size, at least one
 ByteImage depth_sheet(const std::vector<DepthRow>& rows);
 

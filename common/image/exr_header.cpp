@@ -19,7 +19,7 @@ struct FixedType {
   std::string_view name;
   std::size_t size;  // bytes
 };
-/// Types of one size. Of others (string, floatvector, unknown ones) the library takes the size that the file gives.
+/// Types of fixed size. For others (string, floatvector, unknown ones) the library uses the size in the file.
 constexpr std::array<FixedType, 24> kFixedTypes{{{"box2f", 16},
                                                  {"box2i", 16},
                                                  {"chromaticities", 32},
@@ -51,7 +51,7 @@ std::string text(ByteReader& in) {
   return found;
 }
 
-/// Channels, each a name and 16 bytes, ended by an empty name.
+/// Returns the size of the channel list: each channel is a name and 16 bytes; an empty name ends the list.
 std::size_t channels_size(ByteReader in) {
   const std::size_t begin = in.at();
   while (!text(in).empty()) in.skip(16, "an EXR channel");
@@ -67,7 +67,7 @@ std::size_t preview_size(ByteReader in) {
   return size + 8;
 }
 
-/// What an attribute of this type takes; nothing where the file says it.
+/// Returns the size of an attribute of this type; nothing if the file gives it.
 std::optional<std::size_t> size_of(const std::string& type, const ByteReader& in) {
   for (const FixedType& fixed : kFixedTypes)
     if (fixed.name == type) return fixed.size;
@@ -78,7 +78,7 @@ std::optional<std::size_t> size_of(const std::string& type, const ByteReader& in
 }
 
 struct Sizes {
-  std::uint64_t width = 0, height = 0;            // of the data window
+  std::uint64_t width = 0, height = 0;            // size of the data window
   std::uint64_t tile_width = 0, tile_height = 0;  // 0: no tiles
 };
 
@@ -95,8 +95,7 @@ void note_sizes(const std::string& attribute, const std::string& type, ByteReade
   }
 }
 
-/// Each tile has a place in a table of 8 bytes each; the library makes room for the table, and for one tile, before it
-/// reads anything.
+/// Checks the tile table, of 8 bytes per tile. The library allocates the table, and one tile, before it reads anything.
 void check_sizes(const Sizes& sizes, std::size_t file_size, const std::string& name) {
   if (sizes.width > kLargestExrSide || sizes.height > kLargestExrSide ||
       sizes.width * sizes.height / kLargestExrRatio > file_size)
@@ -109,7 +108,8 @@ void check_sizes(const Sizes& sizes, std::size_t file_size, const std::string& n
     throw DataError("{}: {} tiles cannot be in a file of {} bytes", name, tiles, file_size);
 }
 
-/// Attributes are `name\0 type\0 size value`, ended by an empty name. False if there is none.
+/// Checks a list of attributes `name\0 type\0 size value`, ended by an empty name.
+/// \return false if the list is empty
 bool check_part(ByteReader& in, std::size_t file_size) {
   Sizes sizes;
   bool empty = true;

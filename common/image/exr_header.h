@@ -1,4 +1,4 @@
-// The header of an EXR file, before the library reads it.
+// Checks the header of an EXR file before the library reads it.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,13 @@
 namespace tacipc {
 
 inline constexpr std::uint64_t kLargestExrSide = 32768;    // pixels
-inline constexpr std::uint64_t kLargestExrTile = 1 << 24;  // pixels; usual are 64 x 64
-/// No EXR compression shrinks real pixels further; a file that claims so is corrupt.
+inline constexpr std::uint64_t kLargestExrTile = 1 << 24;  // pixels; usual tiles are 64 x 64
+/// Largest compression ratio. No EXR compression shrinks real pixels further, so a file beyond it is corrupt.
 inline constexpr std::uint64_t kLargestExrRatio = 10'000;
 
-/// The library reads attributes as long as their types are, whatever size the file gives, and allocates what a size, a
-/// preview or the number of tiles asks for before it looks whether the file is that long. \throw DataError if a size is
-/// not that of its type, or the file is too small for what its header announces
+/// Checks the header's sizes against the file. The library reads attributes at the length of their types, whatever size
+/// the file gives, and allocates memory for sizes, previews and tiles before it checks the file's length.
+/// \throw DataError if a size does not fit its type, or the file is too small for its header
 void check_exr_header(std::string_view bytes, const std::string& name);
 
 }  // namespace tacipc

@@ -8,7 +8,7 @@
 
 namespace tacipc {
 
-/// Row-major pixels, channels interleaved, row 0 on top.
+/// Row-major pixels, channels interleaved, row 0 at the top.
 template <typename T>
 struct Image {
   int width = 0;
@@ -25,23 +25,26 @@ struct Image {
 using FloatImage = Image<float>;
 using ByteImage = Image<std::uint8_t>;
 
-/// How an EXR stores a number: in 32 bits, or in 16 (11 digits of two; nothing above 65,504, steps of 6e-8 near 0).
+/// Storage of an EXR's numbers: 32 bits, or 16 (11 binary digits; at most 65,504; steps of 6e-8 near 0).
 enum class ExrNumbers { floats, halves };
 
-/// EXR, compressed without loss (ZIP). Channel names by count: 1 `names[0]`, 3 the given three (for instance R G B, or
-/// X Y Z). \throw DataError if it cannot be written, or a number is too large for a half
+/// Writes an EXR with lossless compression (ZIP).
+/// \param channel_names for one channel `names[0]`, for three the given names (for instance R G B, or X Y Z)
+/// \throw DataError if the file cannot be written, or a number is too large for a half
 void write_exr(const std::filesystem::path& path, const FloatImage& image,
                const std::vector<std::string>& channel_names, ExrNumbers numbers = ExrNumbers::floats);
-/// Reads the named channels. \throw DataError if the file is not an EXR or lacks one, naming what it has.
+/// Reads the named channels.
+/// \throw DataError if the file is not an EXR or lacks a channel; the message lists the channels there are
 FloatImage read_exr(const std::filesystem::path& path, const std::vector<std::string>& channel_names);
 
-/// 8-bit PNG, 1 (grey) or 3 (RGB) channels; the bytes depend on nothing but the pixels.
+/// Writes an 8-bit PNG of 1 (grey) or 3 (RGB) channels; the bytes depend on the pixels alone.
 void write_png(const std::filesystem::path& path, const ByteImage& image);
-/// The same as bytes; `name` stands for the file in messages.
+/// Returns the PNG as bytes; `name` stands for the file in messages.
 std::string png_bytes(const ByteImage& image, const std::string& name);
-/// 8-bit JPEG of 3 channels (RGB) as bytes, quality 1 … 100: for people, not for data. `name` as in png_bytes.
+/// Returns an 8-bit RGB JPEG as bytes, quality 1 … 100. For viewing, not for data. `name` as in png_bytes().
 std::string jpeg_bytes(const ByteImage& image, int quality, const std::string& name);
-/// As RGB (channels = 3) or grey (channels = 1), 8 bit. \throw DataError if it is not a readable image.
+/// Reads a PNG or JPEG as 8-bit RGB (channels = 3) or grey (channels = 1).
+/// \throw DataError if it is not a readable image
 ByteImage read_png(const std::filesystem::path& path, int channels);
 
 }  // namespace tacipc

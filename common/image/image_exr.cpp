@@ -22,12 +22,12 @@
 namespace tacipc {
 namespace {
 
-/// Coding in the calling thread keeps the order of chunks, and so the bytes, fixed.
+/// Number of worker threads: without any, the order of chunks, and so the bytes, is fixed.
 constexpr int kThreads = 0;
-/// Of zlib. Level 4, the library's own, makes floats 1 % smaller in a fifth more time.
+/// Compression level of zlib. Level 4, the library's default, makes floats 1 % smaller in a fifth more time.
 constexpr int kExrCompression = 1;
 
-/// Files pass through memory, so that disk errors are read_file's and write_file's.
+/// Writes to memory, so that disk errors come from write_file().
 class MemoryOut final : public Imf::OStream {
  public:
   MemoryOut() : OStream("memory") {}
@@ -64,7 +64,7 @@ class MemoryIn final : public Imf::IStream {
   std::size_t at_ = 0;
 };
 
-/// Imf addresses pixels from (0, 0) of the image plane, which need not lie in the data window.
+/// Makes a slice. Imf addresses pixels from (0, 0) of the image plane, which need not be in the data window.
 template <typename T>
 Imf::Slice slice(const Image<T>& image, int channel, int x_min, int y_min) {
   const auto x_stride = sizeof(T) * image.channels;
@@ -74,6 +74,7 @@ Imf::Slice slice(const Image<T>& image, int channel, int x_min, int y_min) {
   return Imf::Slice(std::is_same_v<T, half> ? Imf::HALF : Imf::FLOAT, origin, x_stride, y_stride);
 }
 
+/// Converts to halves.
 /// \throw DataError if a number is too large
 Image<half> halves_of(const FloatImage& image, const std::string& name) {
   Image<half> halves(image.width, image.height, image.channels);

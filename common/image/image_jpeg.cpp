@@ -10,10 +10,10 @@
 namespace tacipc {
 namespace {
 
-/// Pixels are what the reference transform gives on any machine.
+/// Reference transform, which gives equal pixels on any machine.
 constexpr int kExact = TJFLAG_ACCURATEDCT;
 
-/// Pixels per byte: a block of 8 x 8 of a grey, progressive file takes at least one bit.
+/// Largest number of pixels per byte: a block of 8 x 8 of a grey, progressive file takes at least one bit.
 constexpr std::uint64_t kPixelsPerByte = 8 * 8 * 8;
 
 using Handle = std::unique_ptr<void, int (*)(tjhandle)>;

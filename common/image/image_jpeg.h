@@ -1,4 +1,4 @@
-// Pictures of cameras, by libjpeg-turbo.
+// Decodes JPEG photographs, by libjpeg-turbo.
 #pragma once
 
 #include <string>
@@ -8,9 +8,10 @@
 
 namespace tacipc {
 
-/// Whether the bytes begin as a JPEG does.
+/// Returns whether the bytes begin like a JPEG.
 bool is_jpeg(std::string_view bytes);
-/// 3 channels (RGB) or 1 (grey), in the orientation of the camera. \throw DataError naming the file
+/// Decodes to 3 channels (RGB) or 1 (grey), in the orientation of the camera.
+/// \throw DataError naming the file
 ByteImage decode_jpeg(std::string_view bytes, int channels, const std::string& name);
 
 }  // namespace tacipc

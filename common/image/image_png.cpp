@@ -15,16 +15,16 @@ namespace tacipc {
 namespace {
 
 constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
-/// Deflate cannot shrink further.
+/// Largest compression ratio of deflate.
 constexpr std::uint64_t kLargestRatio = 1040;
 constexpr int kCompression = 6, kCompressionOfNoise = 1;
 
-/// CRC-32, which PNG shares with zlib.
+/// Returns the CRC-32, which PNG and zlib share.
 std::uint32_t checksum(std::string_view bytes) {
   return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-/// What is wrong with the file's chunks, and where: libpng would not say the place.
+/// Checks the file's chunks and reports the location of an error, which libpng would not.
 void check_png(const std::string& bytes, const std::string& name) {
   ByteReader in(bytes, name, std::endian::big);
   in.skip(kSignature.size(), "the signature");
@@ -48,8 +48,8 @@ void check_png(const std::string& bytes, const std::string& name) {
   }
 }
 
-/// What libpng has to say of a file, and the bytes that are read or written. libpng leaves a function by longjmp, which
-/// no destructor may lie under: the functions that call it hold plain values only.
+/// Messages of libpng for a file, and the bytes that are read or written. libpng leaves a function by longjmp, which
+/// must not skip destructors: the functions that call it hold plain values only.
 struct PngFile {
   std::string_view in;
   std::string out;
@@ -74,9 +74,10 @@ void give_bytes(png_structp png, png_bytep source, std::size_t count) {
   static_cast<PngFile*>(png_get_io_ptr(png))->out.append(reinterpret_cast<const char*>(source), count);
 }
 
-/// Whether most pixels differ from the one before: a photograph, or an image with a camera's noise. What a search for
-/// repeated strings finds there is not worth its time: runs of differences alone take a tenth of it, for files that are
-/// even 6 % smaller. Differences from the mean of two neighbours hold less noise than those from one: another 2 to 5 %.
+/// Returns whether most pixels differ from the previous one: a photograph, or an image with a camera's noise. For
+/// these, a search for repeated strings is not worth its time: run-length coding of differences takes a tenth of it and
+/// makes files even 6 % smaller. Differences from the mean of two neighbours contain less noise than from one: another
+/// 2 to 5 %.
 bool is_noisy(const ByteImage& image) {
   const auto channels = static_cast<std::size_t>(image.channels), count = image.pixels.size() / channels;
   std::size_t same = 0;
@@ -89,7 +90,8 @@ bool is_noisy(const ByteImage& image) {
   return 2 * same < count;
 }
 
-/// False where libpng gave up.
+/// Encodes an image.
+/// \return false if libpng failed
 bool encode(PngFile& file, const ByteImage& image) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &file, note_fault, pass_over);
   png_infop info = png_create_info_struct(png);
@@ -113,7 +115,8 @@ bool encode(PngFile& file, const ByteImage& image) {
   return true;
 }
 
-/// As `image.channels` say, 8 bit, without what is transparent. False where libpng gave up.
+/// Decodes to `image.channels` channels, 8 bit, without transparency.
+/// \return false if libpng failed
 bool decode(PngFile& file, ByteImage& image) {
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &file, note_fault, pass_over);
   png_infop info = png_create_info_struct(png);

@@ -1,9 +1,9 @@
-// How rows of pixels continue beyond their ends.
+// Mirrored continuation of a row of pixels beyond its ends.
 #pragma once
 
 namespace tacipc {
 
-/// Index i of a row of n values continued by mirroring about the edge between pixels (… 1 0 | 0 1 … n−1 | n−1 …).
+/// Returns the index of pixel i of a row of n values, mirrored about the outer edges (… 1 0 | 0 1 … n−1 | n−1 …).
 inline int mirrored(int i, int n) {
   const int period = 2 * n;
   const int phase = ((i % period) + period) % period;

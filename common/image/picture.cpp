@@ -26,7 +26,7 @@ std::array<std::uint8_t, 3> perceptual_color(double t) {
   t = std::clamp(t, 0.0, 1.0);
   const double lightness = 0.22 + 0.73 * t;
   const double hue = (290.0 - 185.0 * t) * std::numbers::pi / 180.0;
-  // Chroma bends so that every colour stays inside sRGB: the gamut is narrow at the dark and the teal.
+  // Chroma varies so that every colour stays inside sRGB: the gamut is narrow in dark and teal tones.
   const double chroma = 0.095 + 0.055 * t - 0.03 * std::sin(std::numbers::pi * t);
   const double a = chroma * std::cos(hue), b = chroma * std::sin(hue);
   const double l = cube(lightness + 0.3963377774 * a + 0.2158037573 * b);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kWidth = 480.0, kHeight = 320.0;
 constexpr PlotArea kArea{.left = 62.0, .right = 458.0, .top = 28.0, .bottom = 276.0};
-constexpr double kLine = 14.0;  // of the labels of curves, below the plot
+constexpr double kLine = 14.0;  // height of a legend line below the plot
 constexpr std::array<const char*, 8> kColors{"#1f5fa8", "#c2571a", "#3a8a4a", "#7a4fa0",
                                              "#b0306a", "#7d6608", "#4d9aa6", "#55555f"};
 

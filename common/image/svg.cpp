@@ -11,7 +11,7 @@ namespace {
 
 std::string with_space(const std::string& attributes) { return attributes.empty() ? "" : " " + attributes; }
 
-/// Shaft and head.
+/// Returns the path of an arrow's shaft and head.
 std::string arrow_path(const Eigen::Vector2d& from, const Eigen::Vector2d& by) {
   const double length = std::hypot(by.x(), by.y());
   if (length < 0.3) return "";
@@ -63,7 +63,7 @@ std::string x_ticks_svg(const std::vector<Tick>& ticks, const PlotArea& area, co
 }
 
 std::string y_ticks_svg(const std::vector<Tick>& ticks, const PlotArea& area, const AxesLook& look) {
-  constexpr double kBaseline = 4.0;  // below the middle of digits
+  constexpr double kBaseline = 4.0;  // offset of the baseline below the middle of digits
   std::string svg;
   for (const Tick& tick : ticks)
     svg += fmt::format(

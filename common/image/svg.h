@@ -1,4 +1,4 @@
-// What SVG drawings are made of: the start of a file, axes with ticks, arrows.
+// Building blocks of SVG drawings: start of a file, axes with ticks, arrows.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,41 +9,42 @@
 
 namespace tacipc {
 
-/// The opening tag of a drawing that is a file of its own, on white.
+/// Returns the opening tag of a stand-alone drawing on white.
 std::string svg_file_start(double width, double height, int font_size);
 
-/// Where curves lie, in drawing coordinates; y points down.
+/// Area of the curves in drawing coordinates; y points down.
 struct PlotArea {
   double left, right, top, bottom;
 };
 
-/// What axes look like. Texts are attributes: a class where the page has a style sheet, colours in a file of its own.
+/// Style of axes. Texts are SVG attributes: a class if the page has a style sheet, colours in a stand-alone file.
 struct AxesLook {
-  std::string grid, axis;       // of lines
-  std::string x_tick, y_tick;   // of the ticks' labels
+  std::string grid, axis;       // attributes of lines
+  std::string x_tick, y_tick;   // attributes of tick labels
   double x_label_below = 18.0;  // baseline of labels below the area
   double y_label_left = 8.0;    // end of labels left of the area
-  int decimals = 2;             // of coordinates
+  int decimals = 2;             // decimals of coordinates
 };
 
-/// Of a drawing that is a file of its own.
+/// Returns the style of a stand-alone drawing.
 const AxesLook& file_axes();
 
-/// A line of the grid and its label.
+/// A grid line and its label.
 struct Tick {
   double at;  // drawing coordinate
   std::string label;
 };
-/// Those of the scale's axis.
+/// Returns the ticks of the scale's axis.
 std::vector<Tick> ticks_of(const Scale& scale);
 
-/// Upright lines of the grid with labels below the area; level ones with labels left of it; the two axes themselves.
+/// Draw vertical grid lines with labels below the area, horizontal ones with labels left of it, and the two axes.
 std::string x_ticks_svg(const std::vector<Tick>& ticks, const PlotArea& area, const AxesLook& look);
 std::string y_ticks_svg(const std::vector<Tick>& ticks, const PlotArea& area, const AxesLook& look);
 std::string axes_svg(const PlotArea& area, const AxesLook& look);
 
-/// Quivers: a dot per point, an arrow from each by a vector, all in drawing coordinates and each kind one path with the
-/// attributes `look`. Of vectors shorter than a third of a unit there is nothing to see. Nothing of nothing.
+/// Draw a vector field: a dot per point, and an arrow from each point by a vector, in drawing coordinates. Dots and
+/// arrows are one path each, with the attributes `look`. Vectors shorter than a third of a unit are left out. Empty
+/// input gives empty text.
 std::string dots_svg(const Eigen::Matrix2Xd& at, const std::string& look);
 std::string arrows_svg(const Eigen::Matrix2Xd& from, const Eigen::Matrix2Xd& by, const std::string& look);
 

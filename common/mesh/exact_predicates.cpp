@@ -11,16 +11,16 @@ namespace tacipc {
 namespace {
 
 constexpr double kHalfUlp = std::numeric_limits<double>::epsilon() / 2;
-// Forward error of the determinants below is at most 7u and 3u times the permanent (one u spare); the constant covers
-// underflow.
+// The forward error of the determinants below is at most 7u and 3u times the permanent (one u spare); the constant
+// covers underflow.
 constexpr double kOrient3dBound = 8 * kHalfUlp;
 constexpr double kOrient2dBound = 4 * kHalfUlp;
 constexpr double kUnderflow = 1e-290;
 
 int sign_of(const mpz_class& value) { return sgn(value); }
 
-/// Doubles times one common power of two, chosen so that all become integers: signs of homogeneous polynomials are
-/// kept.
+/// Scales doubles by one common power of two so that all become integers; this keeps the signs of homogeneous
+/// polynomials.
 template <std::size_t N>
 std::array<mpz_class, N> as_integers(const std::array<double, N>& values) {
   constexpr int kMantissaBits = std::numeric_limits<double>::digits;
@@ -47,13 +47,13 @@ int orient3d_exact(const Vector3& a, const Vector3& b, const Vector3& c, const V
   return sign_of(bx * (cy * dz - cz * dy) + by * (cz * dx - cx * dz) + bz * (cx * dy - cy * dx));
 }
 
-/// Coordinates kept when one is dropped.
+/// Indices of the two coordinates that remain if one is dropped.
 struct Projection {
   int i, j;
 };
 constexpr std::array<Projection, 3> kProjections{{{1, 2}, {2, 0}, {0, 1}}};
 
-/// Sign of twice the signed area of abc in the projection.
+/// Returns the sign of twice the signed area of abc in the projection.
 int orient2d(const Projection& on, const Vector3& a, const Vector3& b, const Vector3& c) {
   const double b_i = b[on.i] - a[on.i], b_j = b[on.j] - a[on.j];
   const double c_i = c[on.i] - a[on.i], c_j = c[on.j] - a[on.j];
@@ -75,7 +75,8 @@ bool boxes_overlap(const Vector3& p, const Vector3& q, const Vector3& a, const V
   return true;
 }
 
-/// Closed segments pq and ab of one plane; `on` shows that plane, or the line they share, without folding it.
+/// Returns whether closed segments pq and ab of one plane intersect.
+/// \param on projection that does not collapse the plane, or the common line
 bool coplanar_segments_intersect(const Projection& on, const Vector3& p, const Vector3& q, const Vector3& a,
                                  const Vector3& b) {
   if (!boxes_overlap(p, q, a, b)) return false;
@@ -90,10 +91,10 @@ bool segments_intersect(const Vector3& p, const Vector3& q, const Vector3& a, co
     if (orient2d(on, p, q, a) != 0 || orient2d(on, p, q, b) != 0 || orient2d(on, a, b, p) != 0 ||
         orient2d(on, a, b, q) != 0)
       return coplanar_segments_intersect(on, p, q, a, b);
-  return true;  // on one line, where overlapping boxes mean overlapping segments
+  return true;  // all four points are on one line, where overlapping boxes mean overlapping segments
 }
 
-/// Segment in the plane of the triangle, or a triangle that is a segment itself.
+/// Handles a segment in the plane of the triangle, and a triangle that is degenerate to a segment.
 bool coplanar_segment_intersects_triangle(const Vector3& p, const Vector3& q, const TrianglePoints& t) {
   for (const Projection& on : kProjections) {
     const int turn = orient2d(on, t[0], t[1], t[2]);
@@ -121,7 +122,8 @@ int orient3d(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3
   const Vector3 u = b - a;
   const Vector3 v = c - a;
   const Vector3 w = d - a;
-  // A coordinate all four share makes them coplanar: the usual case on a flat face, and not worth long integers.
+  // A coordinate that all four points share makes them coplanar: the usual case on a flat face, decided without long
+  // integers.
   for (int i = 0; i < 3; ++i)
     if (u[i] == 0 && v[i] == 0 && w[i] == 0) return 0;
   const double vw_yz = v.y() * w.z(), wv_yz = v.z() * w.y();
@@ -131,7 +133,7 @@ int orient3d(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3
   const double permanent = std::abs(u.x()) * (std::abs(vw_yz) + std::abs(wv_yz)) +
                            std::abs(u.y()) * (std::abs(vw_zx) + std::abs(wv_zx)) +
                            std::abs(u.z()) * (std::abs(vw_xy) + std::abs(wv_xy));
-  // The largest length bounds what underflow of a product can have cost.
+  // The largest length bounds the error from underflow of a product.
   const double bound = kOrient3dBound * permanent + kUnderflow * (1 + u.lpNorm<1>());
   if (det > bound) return 1;
   if (det < -bound) return -1;
@@ -139,7 +141,7 @@ int orient3d(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3
 }
 
 bool segment_intersects_triangle(const Vector3& p, const Vector3& q, const TrianglePoints& t) {
-  // Most are apart along an axis, which comparisons tell exactly.
+  // Most triangles are separated along an axis, which comparisons decide exactly.
   for (int i = 0; i < 3; ++i) {
     if (std::max(p[i], q[i]) < std::min({t[0][i], t[1][i], t[2][i]}) ||
         std::min(p[i], q[i]) > std::max({t[0][i], t[1][i], t[2][i]}))
@@ -149,8 +151,8 @@ bool segment_intersects_triangle(const Vector3& p, const Vector3& q, const Trian
   const int side_q = orient3d(t[0], t[1], t[2], q);
   if (side_p * side_q > 0) return false;
   if (side_p == 0 && side_q == 0) return coplanar_segment_intersects_triangle(p, q, t);
-  // The line meets the plane in one point of the segment; it is in the triangle if the line passes all edges on one
-  // side.
+  // The line meets the plane in one point of the segment; the point is in the triangle if the line passes all edges on
+  // one side.
   const std::array<int, 3> turns{orient3d(p, q, t[0], t[1]), orient3d(p, q, t[1], t[2]), orient3d(p, q, t[2], t[0])};
   const auto [low, high] = std::ranges::minmax_element(turns);
   return *low * *high >= 0;
@@ -176,7 +178,7 @@ bool hinge_is_folded_flat(const Vector3& v, const Vector3& w, const Vector3& a, 
 }
 
 bool mesh_triangles_intersect(std::array<int, 3> first, TrianglePoints p, std::array<int, 3> second, TrianglePoints q) {
-  // Common vertices go to the front, in the same order on both sides.
+  // Move common vertices to the front, in the same order for both triangles.
   std::size_t shared = 0;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = shared; j < 3; ++j)
@@ -190,7 +192,8 @@ bool mesh_triangles_intersect(std::array<int, 3> first, TrianglePoints p, std::a
       }
   switch (shared) {
     case 0: return triangles_intersect(p, q);
-    // Whatever two triangles share beyond a common vertex reaches the edge opposite to it in one of them.
+    // Any further common point of two triangles with one common vertex implies a point on the opposite edge of one of
+    // them.
     case 1: return segment_intersects_triangle(p[1], p[2], q) || segment_intersects_triangle(q[1], q[2], p);
     case 2: return hinge_is_folded_flat(p[0], p[1], p[2], q[2]);
     default: return true;

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kHeader = 12, kChunkHeader = 8;
 constexpr std::uint32_t kJson = 0x4E4F534A, kBinary = 0x004E4942;
 
-/// The binary chunk whose header is at `at`, if there is one.
+/// Returns the binary chunk whose header is at `at`, if there is one.
 std::optional<std::string_view> binary_chunk(std::string_view bytes, std::size_t at, const std::string& name) {
   if (at + kChunkHeader > bytes.size()) return std::nullopt;
   ByteReader in(bytes, name);

@@ -43,7 +43,7 @@ std::unique_ptr<draco::Mesh> decoded(std::string_view bytes, const std::string& 
   }
 }
 
-/// All points' values of an attribute, `components` each.
+/// Returns an attribute's values at all points, `components` each.
 std::vector<float> values_of(const draco::Mesh& mesh, std::size_t id, int components, const std::string& name) {
   const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
   if (attribute == nullptr || attribute->num_components() != components)
@@ -73,7 +73,7 @@ GltfPrimitive decompressed(GltfPrimitive primitive, GltfFile& file, const std::s
   for (std::uint32_t f = 0; f < mesh->num_faces(); ++f)
     for (const draco::PointIndex& corner : mesh->face(draco::FaceIndex(f))) corners.push_back(corner.value());
   primitive.indices = added(corners, corners.size(), kGltfUnsignedInt, "SCALAR", file);
-  primitive.mode = 4;  // whatever was compressed, triangles come out
+  primitive.mode = 4;  // decompression gives triangles, whatever the mode was
   primitive.positions = added(values_of(*mesh, compressed.positions, 3, name), points, kGltfFloat, "VEC3", file);
   for (auto [ids, accessors] :
        {std::pair{&compressed.joints, &primitive.joints}, {&compressed.weights, &primitive.weights}}) {

@@ -1,4 +1,4 @@
-// Meshes that a glTF file compresses with Draco.   [KHR_draco_mesh_compression]
+// Decompresses Draco meshes of glTF files.   [KHR_draco_mesh_compression]
 #pragma once
 
 #include <string>
@@ -7,8 +7,9 @@
 
 namespace tacipc {
 
-/// Decompresses a primitive into arrays that it adds to the file, and names these instead. \pre primitive.draco
-/// \throw DataError `NAME: …`
+/// Decompresses a primitive into arrays that it adds to `file`. Returns the primitive with these arrays.
+/// \pre primitive.draco
+/// \throw DataError `NAME: …` if the data are damaged
 GltfPrimitive decompressed(GltfPrimitive primitive, GltfFile& file, const std::string& name);
 
 }  // namespace tacipc

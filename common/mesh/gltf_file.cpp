@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// One object of the file, with its place for messages: `meshes[2].primitives[0]`.
+/// One object of the file, with its location for messages: `meshes[2].primitives[0]`.
 class Section {
  public:
   Section(const Json& json, const std::string& name, std::string place)
@@ -44,7 +44,7 @@ class Section {
     if (!value) fail(key, "is missing");
     return *value;
   }
-  /// An index below `count`.
+  /// Reads an index below `count`.
   std::optional<std::size_t> optional_index(const char* key, std::size_t count) const {
     const auto value = optional_whole(key);
     if (value) check_index(*value, key, count);
@@ -95,7 +95,7 @@ class Section {
       list.emplace_back(item, name_, fmt::format("{}{}{}[{}]", place_, place_.empty() ? "" : ".", key, list.size()));
     return list;
   }
-  /// Elements of a list; none if there is no such key.
+  /// Returns the elements of a list; empty if the key is absent.
   const Json& items(const char* key) const {
     static const Json kNone = Json::array();
     const Json* value = find(key);
@@ -109,7 +109,7 @@ class Section {
 
  private:
   std::size_t whole_of(const Json& value, const char* key) const {
-    constexpr double kMost = 9007199254740992.0;  // beyond, doubles are not exact
+    constexpr double kMost = 9007199254740992.0;  // doubles beyond this are not exact
     const double number = value.is_number() ? value.get<double>() : -1.0;
     if (!(number >= 0.0 && number <= kMost && number == std::floor(number))) fail(key, "is no whole number from 0");
     return static_cast<std::size_t>(number);
@@ -123,7 +123,7 @@ class Section {
   std::string place_;
 };
 
-/// How many of a kind the file lists.
+/// Returns the number of elements in a list of the file.
 std::size_t count_of(const Section& root, const char* key) { return root.items(key).size(); }
 
 Json parsed(std::string_view text, const std::string& name) {
@@ -140,7 +140,7 @@ Json parsed(std::string_view text, const std::string& name) {
   }
 }
 
-/// Extensions that change no shape, or only in ways that are read.
+/// Returns whether an extension changes no shape, or only in ways that this reader supports.
 bool is_read(const std::string& extension) {
   constexpr std::array<std::string_view, 7> kKinds{"KHR_draco_mesh_compression",
                                                    "KHR_mesh_quantization",
@@ -209,7 +209,7 @@ GltfAccessor read_accessor(const Section& section, std::size_t views) {
   return accessor;
 }
 
-/// JOINTS_0 and WEIGHTS_0, JOINTS_1 …, of indices below `count`.
+/// Reads JOINTS_0 and WEIGHTS_0, JOINTS_1 …; indices are below `count`.
 void read_sets(const Section& attributes, std::size_t count, std::vector<std::size_t>& joints,
                std::vector<std::size_t>& weights) {
   for (int set = 0;; ++set) {
@@ -255,7 +255,7 @@ GltfPrimitive read_primitive(const Section& section, std::size_t accessors, std:
   return primitive;
 }
 
-/// A matrix, or a scale, then a rotation, then a translation.
+/// Reads a matrix, or a scale, followed by a rotation and a translation.
 Eigen::Affine3d read_placement(const Section& section) {
   const auto numbers = [&](const char* key, std::size_t count) {
     const std::vector<double> list = section.numbers(key);
@@ -266,7 +266,7 @@ Eigen::Affine3d read_placement(const Section& section) {
   if (section.find("matrix") != nullptr) {
     const std::vector<double> m = numbers("matrix", 16);
     const Eigen::Map<const Matrix4> given(m.data());
-    constexpr double kRounding = 1e-6;  // of products in single precision
+    constexpr double kRounding = 1e-6;  // rounding of products in single precision
     if (!given.row(3).isApprox(Eigen::RowVector4d::UnitW(), kRounding))
       section.fail("matrix", "is no placement: its last row is not 0 0 0 1");
     placement.matrix().topRows<3>() = given.topRows<3>();

@@ -13,7 +13,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers of buffers are read as they lie in memory");
 
-/// 0 if there is no such type.
+/// Returns the size in bytes; 0 for an unknown type.
 std::size_t size_of(int component_type) {
   switch (component_type) {
     case kGltfByte:
@@ -33,7 +33,7 @@ double loaded(const char* bytes) {
   return static_cast<double>(value);
 }
 
-/// Normalized integers are fractions of the largest.
+/// Reads a number. Normalized integers are fractions of the largest integer.
 double number_at(const char* bytes, int component_type, bool normalized) {
   const auto scaled = [&](double value, double largest) {
     return normalized ? std::max(value / largest, -1.0) : value;
@@ -88,7 +88,7 @@ void GltfNumbers::fail(const std::string& reason) const { throw DataError("{} {}
 const char* GltfNumbers::data_of(std::size_t view, std::size_t offset, std::size_t count, std::size_t size,
                                  std::size_t stride) const {
   const GltfView& of = file_.views[view];
-  // No product of these overflows: counts and strides are checked, or below the size of a view.
+  // None of these products overflows: counts and strides are checked, or are below the size of a view.
   const bool fits = offset <= of.length && (count <= 1 || stride <= of.length) &&
                     (count == 0 || (count - 1) * stride + size <= of.length - offset);
   if (!fits) fail(fmt::format("reaches beyond the {} bytes of bufferViews[{}]", of.length, view));

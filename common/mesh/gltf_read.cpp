@@ -1,4 +1,4 @@
-// The meshes of one glTF scene at their places: nodes, skins and morph targets at rest.
+// Reads the meshes of one glTF scene at their positions: nodes, skins and morph targets at rest.
 #include <algorithm>
 #include <deque>
 #include <map>
@@ -27,8 +27,8 @@ class Scene {
   }
 
  private:
-  /// Nodes at the top of what is read: of the scene that is shown, else of the first; without scenes those that are no
-  /// node's children.
+  /// Returns the root nodes: of the displayed scene, else of the first scene; without scenes, the nodes that are no
+  /// other node's children.
   std::vector<std::size_t> roots() const {
     if (!file_.scenes.empty()) {
       const std::size_t scene = file_.scene.value_or(0);
@@ -46,7 +46,7 @@ class Scene {
     return tops;
   }
 
-  /// Nodes of the scene are trees: none is met twice, so there are no circles.
+  /// Places the nodes. Nodes of a scene form trees: none is reached twice, so there are no cycles.
   void place_nodes() {
     scene_from_node_.resize(file_.nodes.size());
     std::vector<std::size_t> left = roots();
@@ -68,7 +68,7 @@ class Scene {
   void add_mesh(std::size_t n) {
     const GltfNode& node = file_.nodes[n];
     const GltfMesh& mesh = file_.meshes[*node.mesh];
-    // A mesh that is the same at each of its places is kept once.
+    // A mesh that is equal at all of its positions is stored once.
     const bool is_shared = !node.skin && node.weights.empty();
     if (const auto found = shared_.find(*node.mesh); is_shared && found != shared_.end()) {
       for (const PartMesh* part : found->second) placed_.push_back({part, *scene_from_node_[n]});
@@ -79,7 +79,7 @@ class Scene {
       const GltfPrimitive primitive = listed.draco ? decompressed(listed, file_, name_) : listed;
       parts_.push_back(read_part(primitive, node.weights.empty() ? mesh.weights : node.weights));
       if (node.skin) bend(file_.skins[*node.skin], primitive, n, parts_.back());
-      // A skin puts its mesh into the scene by itself.
+      // A skin places its mesh in the scene by itself.
       placed_.push_back({&parts_.back(), node.skin ? Eigen::Affine3d::Identity() : *scene_from_node_[n]});
       if (is_shared) shared_[*node.mesh].push_back(&parts_.back());
     }
@@ -129,11 +129,11 @@ class Scene {
     }
     for (std::size_t i = 2; primitive.mode == kFan && i < count; ++i)
       part.triangles.emplace_back(corner(i - 1), corner(i), corner(0));
-    for (std::size_t i = 2; primitive.mode == kStrip && i < count; ++i)  // every other one is turned round
+    for (std::size_t i = 2; primitive.mode == kStrip && i < count; ++i)  // every other triangle is reversed
       part.triangles.emplace_back(corner(i - 2), corner(i % 2 == 0 ? i - 1 : i), corner(i % 2 == 0 ? i : i - 1));
   }
 
-  /// Moves each vertex as its joints have moved from where they were bound: Σ w T_joint B_joint v.
+  /// Moves each vertex as its joints have moved from their bind pose: Σ w T_joint B_joint v.
   void bend(const GltfSkin& skin, const GltfPrimitive& primitive, std::size_t node, PartMesh& part) const {
     if (primitive.joints.empty())
       throw DataError("{}: nodes[{}] has a skin, but its mesh no joints and weights", name_, node);
@@ -175,10 +175,10 @@ class Scene {
   GltfFile file_;
   const std::string& name_;
   std::vector<std::optional<Eigen::Affine3d>> scene_from_node_;
-  std::deque<PartMesh> parts_;  // which stay where they are
+  std::deque<PartMesh> parts_;  // deque, so that addresses stay valid
   std::map<std::size_t, std::vector<const PartMesh*>> shared_;
   std::vector<PlacedPart> placed_;
-  std::size_t vertices_ = 0, triangles_ = 0;  // read so far
+  std::size_t vertices_ = 0, triangles_ = 0;  // numbers read so far
 };
 
 }  // namespace

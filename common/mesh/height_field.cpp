@@ -23,7 +23,7 @@ HeightField highest_points(const TriangleMesh& mesh, double spacing_m, double ma
     const double area = (p[1] - p[0]).cross(p[2] - p[0]).z();
     const double longest =
         std::max({(p[1] - p[0]).head<2>().norm(), (p[2] - p[1]).head<2>().norm(), (p[0] - p[2]).head<2>().norm()});
-    if (std::abs(area) <= 1e-9 * longest * longest) continue;  // upright: its edges belong to others
+    if (std::abs(area) <= 1e-9 * longest * longest) continue;  // vertical triangles: their edges belong to others
     const auto [left, right] = std::minmax({p[0].x(), p[1].x(), p[2].x()});
     const auto [bottom, top] = std::minmax({p[0].y(), p[1].y(), p[2].y()});
     const auto first = [&](double at, double start) {
@@ -40,11 +40,11 @@ HeightField highest_points(const TriangleMesh& mesh, double spacing_m, double ma
         for (std::size_t k = 0; k < 3; ++k) {
           const Vector3 &a = p[(k + 1) % 3], &b = p[(k + 2) % 3];
           const double part = ((b - a).x() * (q - a).y() - (b - a).y() * (q - a).x()) / area;
-          // The distance from the edge, times its length, is what `part` measures.
+          // `part` is the distance from the edge times its length.
           inside = inside && part >= -kEdgeSlack * (b - a).head<2>().norm() / std::abs(area);
           z += part * p[k].z();
         }
-        // Beside a steep triangle its plane is far above or below all of it.
+        // Next to a steep triangle its plane is far above or below the triangle.
         const auto [lowest, highest] = std::minmax({p[0].z(), p[1].z(), p[2].z()});
         if (inside) field.at(i, j) = std::max(field.at(i, j), std::clamp(z, lowest, highest));
       }

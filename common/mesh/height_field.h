@@ -1,4 +1,4 @@
-// A surface seen along z: heights on a grid.
+// Heights of a surface, seen along z, on a grid.
 #pragma once
 
 #include <limits>
@@ -8,7 +8,7 @@
 
 namespace tacipc {
 
-/// Heights (m) at (x0 + i h, y0 + j h), row j.
+/// Heights (m) at (x0 + i h, y0 + j h), in rows j.
 struct HeightField {
   static constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
@@ -23,9 +23,9 @@ struct HeightField {
   double at(int i, int j) const { return const_cast<HeightField*>(this)->at(i, j); }
 };
 
-/// Highest z of the mesh over every grid point within its bounding box and `margin_m` around it; the grid is centred on
-/// the box. Points less than a micrometre outside a triangle's outline count as inside, so that grid lines along walls
-/// do not drop out.
+/// Returns the highest z of the mesh at every grid point within its bounding box and `margin_m` around it; the grid is
+/// centred on the box. Points less than a micrometre outside a triangle's outline count as inside, so that grid lines
+/// along walls do not drop out.
 HeightField highest_points(const TriangleMesh& mesh, double spacing_m, double margin_m);
 
 }  // namespace tacipc

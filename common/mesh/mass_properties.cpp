@@ -42,7 +42,7 @@ void require_solid(const Matrix3& second_moment_m2) {
   if (!((second_moment_m2 - second_moment_m2.transpose()).norm() <= 1e-9 * size))
     throw DataError("the second moment of the body is not symmetric");
   const Vector3 moments = Eigen::SelfAdjointEigenSolver<Matrix3>(second_moment_m2).eigenvalues();
-  // Thinner than a millionth of its length, a body has a second moment across that is mere rounding.
+  // If a body is thinner than a millionth of its length, its second moment across is mere rounding.
   if (moments[0] > 1e-12 * size) return;
   const Vector3 inertia = moments.sum() - moments.array();
   throw DataError(

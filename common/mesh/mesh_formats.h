@@ -1,4 +1,4 @@
-// The readers behind read_triangle_mesh: each turns the bytes of one format into polygons.
+// Readers behind read_triangle_mesh(): each converts the bytes of one format to polygons.
 #pragma once
 
 #include <span>
@@ -10,11 +10,11 @@
 
 namespace tacipc {
 
-/// Polygons as a file lists them; read_triangle_mesh checks indices and coordinates.
+/// Polygons as a file lists them; read_triangle_mesh() checks indices and coordinates.
 struct PolygonSoup {
   std::vector<Vector3> vertices;
   std::vector<int> corners;       // vertex indices of all polygons, one after another
-  std::vector<int> first_corner;  // where each polygon begins in `corners`
+  std::vector<int> first_corner;  // start of each polygon in `corners`
   std::vector<int> lines;         // line of each polygon in a text file; empty for a binary one
 
   void add_polygon(std::span<const int> polygon);
@@ -25,6 +25,8 @@ struct PolygonSoup {
 void triangulate_polygon(std::span<const int> polygon, const std::vector<Vector3>& vertices,
                          std::vector<int>& triangle_corners);
 
+/// Read the bytes of a file; `name` stands for the file in messages.
+/// \throw DataError if the file is damaged
 PolygonSoup read_stl(std::string_view bytes, const std::string& name);
 PolygonSoup read_obj(std::string_view bytes, const std::string& name);
 PolygonSoup read_off(std::string_view bytes, const std::string& name);

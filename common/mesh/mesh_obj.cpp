@@ -9,13 +9,13 @@
 namespace tacipc {
 namespace {
 
-/// Statements that carry no surface of their own, or only its looks.
+/// Statements without a surface, or about its appearance only.
 constexpr std::array<std::string_view, 32> kIgnored{
     "vt",   "vn",   "vp",    "g",     "s",        "o",        "mg",         "usemtl",    "mtllib", "usemap", "maplib",
     "l",    "p",    "lod",   "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "cstype", "deg",    "bmat",
     "step", "curv", "curv2", "surf",  "parm",     "trim",     "hole",       "scrv",      "sp",     "end"};
 
-/// Index of the vertex that `12`, `12/3`, `12//4` or `12/3/4` names; `-1` is the vertex defined last.
+/// Returns the vertex index in `12`, `12/3`, `12//4` or `12/3/4`; `-1` is the last defined vertex.
 int vertex_index(const TextReader& in, std::string_view corner, std::size_t num_vertices) {
   const std::size_t slash = std::min(corner.find('/'), corner.size());
   const std::int64_t number = in.to_integer(corner.substr(0, slash), "vertex index");

@@ -25,7 +25,7 @@ PolygonSoup read_off(std::string_view bytes, const std::string& name) {
   TextReader in(plain_text(bytes, name), name);
   if (!in.next_line('#')) in.fail("expected 'OFF', found the end");
   const std::string_view header = in.rest().substr(0, in.rest().find_first_of(" \t"));
-  // ST, C, N before the word announce texture coordinates, colours and normals after the position.
+  // ST, C, N before OFF announce texture coordinates, colours and normals after the position.
   if (header.ends_with("OFF")) {
     const std::string_view prefix = in.word();
     if (prefix != "OFF" && prefix != "COFF" && prefix != "NOFF" && prefix != "CNOFF" && prefix != "STOFF" &&
@@ -39,7 +39,7 @@ PolygonSoup read_off(std::string_view bytes, const std::string& name) {
   }
   const std::size_t num_vertices = count(in, "vertex count", kVertexBytes);
   const std::size_t num_faces = count(in, "face count", kFaceBytes);
-  in.word();  // the edge count says nothing and may be absent
+  in.word();  // the edge count is not used and may be absent
 
   PolygonSoup soup;
   soup.vertices.reserve(num_vertices);

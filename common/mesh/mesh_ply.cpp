@@ -42,7 +42,7 @@ std::size_t size_of(Scalar scalar) {
 struct Property {
   std::string name;
   Scalar type;
-  std::optional<Scalar> count_type;  // of a list
+  std::optional<Scalar> count_type;  // type of a list's count
 };
 
 struct Element {
@@ -68,7 +68,7 @@ Scalar scalar_type(const TextReader& in, std::string_view word) {
 PlyHeader read_header(std::string_view bytes, const std::string& name) {
   constexpr std::string_view kEnd = "end_header";
   std::size_t end = bytes.find(kEnd);
-  // A comment may mention the word; the header ends with a line of its own.
+  // A comment may contain the word; the header ends with a line of its own.
   while (end != std::string_view::npos && end > 0 && bytes[end - 1] != '\n' && bytes[end - 1] != '\r')
     end = bytes.find(kEnd, end + 1);
   if (end == std::string_view::npos) throw DataError("{}: the file ends inside the PLY header", name);
@@ -117,7 +117,7 @@ PlyHeader read_header(std::string_view bytes, const std::string& name) {
   return header;
 }
 
-/// The numbers of the body, text or binary.
+/// Reads the numbers of the body, text or binary.
 class Body {
  public:
   Body(std::string_view bytes, const std::string& name, const PlyHeader& header)
@@ -142,7 +142,7 @@ class Body {
     return 0.0;
   }
 
-  /// A whole number in [0, most].
+  /// Reads a whole number in [0, most].
   std::uint64_t whole(Scalar type, const std::string& what, std::uint64_t most) {
     const double value = number(type, what);
     if (!(value >= 0.0) || value > static_cast<double>(most) || value != std::floor(value))
@@ -150,9 +150,9 @@ class Body {
     return static_cast<std::uint64_t>(value);
   }
 
-  /// Bytes one value of this type takes at least.
+  /// Returns the smallest number of bytes of a value of this type.
   std::size_t smallest(Scalar type) const { return ascii_ ? 2 : size_of(type); }
-  /// Bytes to come; one more in a text, whose last line may lack its end.
+  /// Returns the number of bytes left; one more in a text, whose last line may lack its line end.
   std::size_t left() const { return ascii_ ? text_.bytes_left() + 1 : binary_.left(); }
   int line() const { return ascii_ ? text_.line() : 0; }
   bool ascii() const { return ascii_; }
@@ -200,7 +200,7 @@ void read_vertices(const Element& element, Body& body, PolygonSoup& soup) {
   }
 }
 
-/// Faces, or any element to be skipped where `soup` is null.
+/// Reads faces, or skips any element if `soup` is null.
 void read_lists(const Element& element, Body& body, PolygonSoup* soup) {
   if (element.properties.empty()) return;
   std::vector<int> polygon;

@@ -24,13 +24,13 @@ struct HashPoint {
   }
 };
 
-/// Gives corners of equal coordinates one index, in the order in which they are first met.
+/// Assigns one index to corners of equal coordinates, in order of first occurrence.
 class CornerIndex {
  public:
   explicit CornerIndex(std::vector<Vector3>& vertices) : vertices_(vertices) {}
 
   int of(const Vector3& point) {
-    // Not-a-numbers never compare equal, so each stays a vertex of its own and is reported later. −0 becomes 0.
+    // NaNs never compare equal, so each remains a vertex of its own and is reported later. −0 becomes 0.
     const auto [found, fresh] =
         index_.try_emplace({point.x() + 0.0, point.y() + 0.0, point.z() + 0.0}, static_cast<int>(vertices_.size()));
     if (fresh) vertices_.push_back(point + Vector3::Zero());
@@ -76,7 +76,7 @@ PolygonSoup read_ascii(std::string_view bytes, const std::string& name) {
   while (in.next_line()) {
     const std::string keyword = lower_case(in.word());
     if (keyword == "solid" && !open) {
-      open = true;  // whatever follows on the line is a name
+      open = true;  // the rest of the line is a name
     } else if (keyword == "endsolid" && open) {
       open = false;
     } else if (keyword == "facet" && open) {
@@ -101,7 +101,7 @@ PolygonSoup read_ascii(std::string_view bytes, const std::string& name) {
   return soup;
 }
 
-/// Whether the facets that a binary file counts are what it holds: it may begin with any word, "solid" too.
+/// Returns whether the size fits a binary file's number of facets; such a file may begin with any word, even "solid".
 bool has_size_of_binary(std::string_view bytes) {
   if (bytes.size() < kHeaderBytes + 4) return false;
   std::uint32_t count = 0;
@@ -109,7 +109,7 @@ bool has_size_of_binary(std::string_view bytes) {
   return kHeaderBytes + 4 + std::uint64_t{kFacetBytes} * count == bytes.size();
 }
 
-/// Whether bytes that no text holds follow, or another word than a text begins with.
+/// Returns whether the next bytes cannot be text, or the next word cannot begin a text file.
 bool looks_binary(std::string_view bytes) {
   const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
   if (lower_case(bytes.substr(first, 5)) != "solid") return true;

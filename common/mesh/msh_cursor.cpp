@@ -69,7 +69,7 @@ void MshCursor::skip_reals(std::uint64_t n, std::string_view what) {
   for (; n > 0; --n) real(what);
 }
 
-/// One more in a text, whose last line may lack its end.
+/// Counts one more in a text, whose last line may lack its line end.
 std::size_t MshCursor::left() const { return text_form_ ? text_.bytes_left() + 1 : bytes_.left(); }
 
 void MshCursor::check_fits(std::uint64_t count, std::size_t words, std::size_t bytes, std::string_view what) const {

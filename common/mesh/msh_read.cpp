@@ -22,7 +22,8 @@ struct ElementType {
   std::string_view name;
 };
 
-/// Gmsh's element numbers that occur in meshes of tetrahedra, and those that must be refused by name.
+/// Returns the type for Gmsh's element numbers that occur in tetrahedral meshes, and for those that are refused by
+/// name.
 std::optional<ElementType> element_type(int number) {
   switch (number) {
     case 1: return ElementType{2, Keep::nothing, "line"};
@@ -76,7 +77,7 @@ class MshReader {
     std::string_view body;
   };
 
-  /// `$Name`, its body, `$EndName`; the body begins after the line end.
+  /// Finds `$Name`, its body and `$EndName`; the body begins after the line end.
   std::optional<Section> next_section(std::size_t& at) const {
     const std::size_t dollar = file_.find('$', at);
     if (dollar == std::string_view::npos) return std::nullopt;
@@ -159,7 +160,7 @@ class MshReader {
     for (std::uint64_t done = 0; done < count;) {
       if (in.is_text()) in.integer("element number");
       const ElementType type = supported_type(in, in.integer("element type"));
-      // Binary files give type and tag count once for a run of elements.
+      // Binary files give type and tag count once per run of elements.
       const int run = in.is_text() ? 1 : in.integer("element run length");
       const int num_tags = in.integer("tag count");
       if (run < 1 || static_cast<std::uint64_t>(run) > count - done || num_tags < 0)
@@ -178,7 +179,7 @@ class MshReader {
     }
   }
 
-  /// Physical tags live with the geometric entities: remember the first one of each surface.
+  /// Reads entities. Physical tags belong to geometric entities; stores the first tag of each surface.
   void read_entities(std::string_view body) {
     MshCursor in(file_, body, name_, form_);
     std::array<std::uint64_t, 4> counts;

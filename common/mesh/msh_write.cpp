@@ -21,10 +21,10 @@ struct NamedTag {
   bool required;
 };
 
-/// What a file holds.
+/// Kind of a file: gel or soft object.
 struct Kind {
-  std::vector<NamedTag> tags;  // of its boundary
-  const char* volume;          // physical name
+  std::vector<NamedTag> tags;  // tags of its boundary
+  const char* volume;          // physical name of the volume
   const char *said, *tags_said;
 };
 const Kind kGel{
@@ -34,7 +34,7 @@ const Kind kGel{
     "1 (front), 2 (side) or 3 (glued)"};
 const Kind kObject{{{BoundaryTag::free, "free", true}}, "object", "a soft object", "5 (free)"};
 
-/// Rows in an order that tells which triangles are there, each turned to begin with its smallest index.
+/// Returns sorted triangles, each rotated to begin with its smallest index, so that sets of triangles can be compared.
 std::vector<std::array<int, 3>> canonical(const Triangles& triangles) {
   std::vector<std::array<int, 3>> rows(triangles.rows());
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
@@ -115,7 +115,8 @@ void write_tet_mesh(const std::filesystem::path& path, const TetMesh& mesh) {
 
 namespace {
 
-/// \throw DataError, naming the other kind where it is one
+/// Reads a mesh of one kind.
+/// \throw DataError, which names the other kind if the file has it
 TetMesh read_kind(const std::filesystem::path& path, const Kind& kind, const Kind& other) {
   MshContent content = read_msh(path);
   const std::string name = path.string();

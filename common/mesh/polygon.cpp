@@ -9,7 +9,7 @@ namespace {
 
 using Vector2 = Eigen::Vector2d;
 
-/// Polygon in the coordinate plane it is seen best in, counter-clockwise.
+/// Projects a polygon to the coordinate plane in which its area is largest, counter-clockwise.
 std::vector<Vector2> flatten(std::span<const int> polygon, const std::vector<Vector3>& vertices) {
   const std::size_t n = polygon.size();
   // Newell: the sum of the cross products of consecutive corners is twice the area vector, planar or not.
@@ -77,7 +77,7 @@ void triangulate_polygon(std::span<const int> polygon, const std::vector<Vector3
         return inside(p, flat[before], flat[tip], flat[after]);
       });
     };
-    // A polygon that crosses itself or has no area may have no ear: any corner then serves as well as another.
+    // A polygon that crosses itself or has no area may have no ear; any corner then serves.
     std::size_t ear = 0;
     while (ear < m && !is_ear(ear)) ++ear;
     ear %= m;

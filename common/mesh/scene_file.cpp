@@ -18,7 +18,7 @@ bool is_scene_file(const std::filesystem::path& path) {
 }
 
 SceneMesh read_scene_file(const std::filesystem::path& path) {
-  // From memory: what the record hashes is what is read, and no other file beside it.
+  // Read from memory, so that the parsed bytes are the hashed ones, and no other file is read.
   const std::string name = path.string(), bytes = read_file(path);
   if (bytes.empty()) throw DataError("{}: the file is empty", name);
   return suffix_of(path) == ".3mf" ? read_3mf(bytes, name) : read_gltf(bytes, name);

@@ -1,4 +1,4 @@
-// Meshes at their places in a file, joined to one: the common end of readers whose files place meshes (glTF, 3MF).
+// Joins placed meshes to one: the common last step of readers for glTF and 3MF.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,28 +11,30 @@
 
 namespace tacipc {
 
-/// A mesh as a file lists it. \pre triangles name vertices that there are
+/// A mesh as a file lists it.
+/// \pre indices of vertices are valid
 struct PartMesh {
   std::vector<Vector3> vertices;
   std::vector<Eigen::Vector3i> triangles;
 };
 
-/// Where a file puts a mesh; the mesh outlives it.
+/// A mesh with its position in the scene; the mesh must outlive it.
 struct PlacedPart {
   const PartMesh* mesh;
   Eigen::Affine3d scene_from_part;
 };
 
-/// Limits to what a small file can ask for by naming one mesh many times, or placements inside placements.
-inline constexpr std::size_t kMostSceneElements = 16'000'000;  // vertices, and triangles
+/// Limits on the output of a small file that repeats one mesh many times, or nests placements.
+inline constexpr std::size_t kMostSceneElements = 16'000'000;  // largest number of vertices, and of triangles
 inline constexpr std::size_t kMostPlacements = 1'000'000;
 inline constexpr int kDeepestPlacement = 64;
 
-/// All parts in one mesh; triangles of mirrored parts keep looking outwards. \throw DataError `NAME: …` if there is no
-/// triangle, a vertex is not finite, or there are too many of either.
+/// Joins all parts to one mesh; triangles of mirrored parts keep facing outwards.
+/// \throw DataError `NAME: …` if there is no triangle, a vertex is not finite, or there are too many triangles or
+/// vertices
 TriangleMesh joined_parts(std::span<const PlacedPart> parts, const std::string& name);
 
-/// The readers behind read_scene_file; `name` is the file's, for messages.
+/// Read the bytes of a file for read_scene_file(); `name` stands for the file in messages.
 SceneMesh read_3mf(std::string_view bytes, const std::string& name);
 SceneMesh read_gltf(std::string_view bytes, const std::string& name);
 

@@ -7,7 +7,7 @@
 namespace tacipc {
 namespace {
 
-/// The lowest 21 bits, two zeros after each.
+/// Returns the lowest 21 bits with two zeros after each.
 std::uint64_t spread(std::uint64_t bits) {
   bits = (bits | bits << 32) & 0x1f00000000ffffULL;
   bits = (bits | bits << 16) & 0x1f0000ff0000ffULL;

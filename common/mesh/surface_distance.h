@@ -1,4 +1,4 @@
-// How far a surface is from what is seen of another one.
+// Distance of a surface from the visible points of another one.
 #pragma once
 
 #include <string>
@@ -8,18 +8,21 @@
 
 namespace tacipc {
 
-/// Rows: where x, y and z of the view of a side (+x -x +y -y +z -z) lie in the mesh; z looks out of the side.
+/// Returns a rotation whose rows are the view's x, y and z axes in the mesh's frame, for a side (+x -x +y -y +z -z); z
+/// points out of the side.
 Matrix3 view_of_side(const std::string& side);
 
-/// What is seen of a mesh along −z: its highest points on a grid, row by row.
+/// Returns the visible points of a mesh along −z: its highest points on a grid, row by row.
 std::vector<Vector3> seen_points(const TriangleMesh& mesh, double spacing_m);
 
+/// Mean and largest distance over all points.
 struct SurfaceDistance {
   double mean_m = 0.0;
   double max_m = 0.0;
 };
 
-/// Distances of points from a surface; the same on any number of threads. \pre the surface has a triangle.
+/// Computes distances of points from a surface; the result does not depend on the number of threads.
+/// \pre the surface has a triangle
 SurfaceDistance distance_from(const TriangleMesh& surface, const std::vector<Vector3>& points);
 
 }  // namespace tacipc

@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<std::array<int, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 struct KeyedFace {
-  std::uint64_t first_two;  // of its sorted vertices
+  std::uint64_t first_two;  // first two of its sorted vertices
   int third;
   int place;  // 4 · tet + face
 

@@ -1,4 +1,4 @@
-// A tetrahedral mesh of a gel, or of a soft object, with its tagged boundary, and its files (Gmsh MSH).
+// A tetrahedral mesh of a gel or a soft object, with its tagged boundary, and its files (Gmsh MSH).
 #pragma once
 
 #include <filesystem>
@@ -8,11 +8,11 @@
 
 namespace tacipc {
 
-/// What a boundary triangle is: front, side or glued of a gel; free all over a soft object, which nothing holds. The
-/// numbers are the physical tags in the MSH file, where 4 is the volume.
+/// Kind of a boundary triangle: front, side or glued on a gel; free on a soft object, which is not held. The numbers
+/// are the physical tags in the MSH file; the volume has tag 4.
 enum class BoundaryTag { front = 1, side = 2, glued = 3, free = 5 };
 
-/// Tetrahedral mesh in metres; tets are positively oriented; boundary triangles look outwards.
+/// Tetrahedral mesh in metres. Tets are positively oriented; boundary triangles face outwards.
 struct TetMesh {
   Positions positions;            // #V × 3
   Tetrahedra tets;                // #T × 4
@@ -21,41 +21,44 @@ struct TetMesh {
 
   Eigen::Index num_vertices() const { return positions.rows(); }
   Eigen::Index num_tets() const { return tets.rows(); }
-  /// Boundary triangles of one kind, in boundary order.
+  /// Returns the boundary triangles of one kind, in boundary order.
   Triangles faces(BoundaryTag tag) const;
-  /// Vertices of the faces of one kind, ascending.
+  /// Returns the vertices of the faces of one kind, ascending.
   std::vector<int> vertices(BoundaryTag tag) const;
-  /// The faces of one kind as a surface of its own: by places in vertices(tag).
+  /// Returns the faces of one kind with indices into vertices(tag).
   Triangles surface(BoundaryTag tag) const;
 };
 
-/// Several meshes as one: the vertices of the first, then those of the second, …; tets and boundary likewise.
+/// Joins several meshes to one: vertices of the first, then of the second, …; tets and boundary likewise.
 TetMesh joined(const std::vector<TetMesh>& meshes);
 
-/// Outward triangles that belong to exactly one tet, in the order of the tets. \throw DataError if three tets share a
-/// face.
+/// Returns outward triangles that belong to exactly one tet, in the order of the tets.
+/// \throw DataError if three tets share a face
 Triangles boundary_triangles(const Tetrahedra& tets, Eigen::Index num_vertices);
 
-/// Nodes, tets and triangles of a Gmsh file as it stands (2.2 and 4.1, text and binary of either byte order), in the
-/// file's node order and unit, whatever the node numbers are.
+/// Nodes, tets and triangles of a Gmsh file (2.2 and 4.1, text and binary of either byte order), in the file's node
+/// order and unit, whatever the node numbers are.
 struct MshContent {
   Positions positions;
   Tetrahedra tets;
   Triangles triangles;
   std::vector<int> triangle_tags;  // physical tag, 0 if none
 };
-/// \throw DataError naming file and place for truncated, corrupt or unsupported content (higher-order tets are named as
-/// such).
+/// Reads a Gmsh file.
+/// \throw DataError naming file and location for truncated, corrupt or unsupported content; the message names
+/// higher-order tets
 MshContent read_msh(const std::filesystem::path& path);
 
-/// Writes a tagged mesh as MSH 4.1 ASCII (numbers read back to the same bits; physical groups front, side, glued and
-/// gel, or free and object), readable by Gmsh and by read_msh. Boundary triangles are grouped by tag, in boundary order
-/// within each.
+/// Writes a tagged mesh as MSH 4.1 ASCII, readable by Gmsh and by read_msh(). Numbers read back to the same bits;
+/// physical groups are front, side, glued and gel, or free and object. Boundary triangles are grouped by tag, in
+/// boundary order within each.
 void write_tet_mesh(const std::filesystem::path& path, const TetMesh& mesh);
-/// Reads the gel that write_tet_mesh wrote. \throw DataError if a tag is missing (a side alone may be), a tet is not
-/// positive, the boundary does not fit the tets, or it is a soft object.
+/// Reads a gel that write_tet_mesh() wrote.
+/// \throw DataError if a tag is missing (except side), a tet is not positive, the boundary does not fit the tets, or
+/// the mesh is a soft object
 TetMesh read_tet_mesh(const std::filesystem::path& path);
-/// Reads a soft object likewise. \throw DataError the same, or if it is a gel.
+/// Reads a soft object that write_tet_mesh() wrote.
+/// \throw DataError as read_tet_mesh(), or if the mesh is a gel
 TetMesh read_object_tet_mesh(const std::filesystem::path& path);
 
 }  // namespace tacipc

@@ -18,12 +18,12 @@ using Node = pugi::xml_node;
 
 constexpr const char* kCore = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
 constexpr const char* kProduction = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
-// Looks and names of triangles, which change no shape.
+// Namespaces about looks and names of triangles, which change no shape.
 constexpr const char* kMaterials = "http://schemas.microsoft.com/3dmanufacturing/material/2015/02";
 constexpr const char* kTriangleSets = "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07";
 constexpr const char* kRootRelation = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
 
-/// Memory that a tree of XML may take; some 15 million triangles.
+/// Memory limit of an XML tree; enough for some 15 million triangles.
 constexpr std::size_t kMostTree = std::size_t{4} << 30;
 constexpr std::size_t kNodeBytes = 64, kAttributeBytes = 40;
 
@@ -33,7 +33,7 @@ std::string_view prefix_of(std::string_view name) {
 }
 std::string_view local_name(std::string_view name) { return name.substr(name.find(':') + 1); }
 
-/// Namespace that a prefix stands for at an element; empty if none.
+/// Returns the namespace of a prefix at an element; empty if it has none.
 std::string namespace_of(Node node, std::string_view prefix) {
   const std::string wanted = prefix.empty() ? "xmlns" : "xmlns:" + std::string(prefix);
   for (; node; node = node.parent())
@@ -41,13 +41,14 @@ std::string namespace_of(Node node, std::string_view prefix) {
   return "";
 }
 
-/// An element as messages name it.
+/// Returns an element as messages name it.
 std::string element_text(Node node) {
   const std::string space = namespace_of(node, prefix_of(node.name()));
   return fmt::format("<{}>{}", shown(node.name()), space == kCore ? "" : " of " + shown(space));
 }
 
-/// The root element of a document. \throw DataError `PLACE: …` if it is no XML
+/// Parses a document and returns its root element.
+/// \throw DataError `PLACE: …` if it is not XML
 Node parse(pugi::xml_document& document, std::string& xml, const std::string& place) {
   const auto count = [&](char c) { return static_cast<std::size_t>(std::ranges::count(xml, c)); };
   if (kNodeBytes * count('<') + kAttributeBytes * count('=') > kMostTree)
@@ -57,7 +58,7 @@ Node parse(pugi::xml_document& document, std::string& xml, const std::string& pl
   return document.document_element();
 }
 
-/// Reads one model; keeps where it is for messages.
+/// Reads one model; stores the location for messages.
 class ModelReader {
  public:
   ModelReader(Node root, const std::string& place) : root_(root), place_(place), prefix_(prefix_of(root.name())) {
@@ -88,7 +89,7 @@ class ModelReader {
   std::string core(const char* name) const { return prefix_ + name; }
   bool is_core(Node node, const char* name) const { return core(name) == node.name(); }
 
-  /// Children of this name in the core namespace.
+  /// Calls `use` for children of this name in the core namespace.
   template <typename Use>
   void for_each(Node parent, const char* name, const Use& use) const {
     const std::string qualified = core(name);
@@ -105,7 +106,7 @@ class ModelReader {
     }
   }
   static std::string shown_space(const std::string& space) {
-    // The end of such a name says which it is.
+    // The end of such a name identifies it.
     constexpr std::size_t kLongest = 38;
     return space.size() <= kLongest ? shown(space) : "…" + shown(space.substr(space.size() - kLongest));
   }
@@ -123,7 +124,7 @@ class ModelReader {
     throw DataError("{}: unit '{}' is none of micron, millimeter, centimeter, inch, foot, meter", place_, shown(word));
   }
 
-  /// The number of an attribute, whose text may have blanks around it and a plus before it.
+  /// Reads the number in an attribute, which may have blanks around it and a plus before it.
   template <typename Number>
   static std::optional<Number> number(std::string_view text) {
     constexpr std::string_view kBlanks = " \t\r\n";
@@ -158,7 +159,7 @@ class ModelReader {
     return reference;
   }
 
-  /// Rows of a 4 × 3 matrix that points, as rows, are multiplied with.
+  /// Reads a 4 × 3 matrix in 3MF's convention: a point, as a row vector p, is mapped to p M.
   Eigen::Affine3d read_transform(Node node, pugi::xml_attribute transform) const {
     std::istringstream words(transform.value());
     std::array<double, 12> m{};
@@ -254,7 +255,7 @@ class ModelReader {
 
   Node root_;
   const std::string& place_;
-  std::string prefix_;  // of the core namespace, with its colon
+  std::string prefix_;  // prefix of the core namespace, with its colon
 };
 
 }  // namespace
@@ -283,7 +284,7 @@ std::string volumes_that_are_no_parts(std::string settings, const std::string& p
   try {
     root = parse(document, settings, place);
   } catch (const DataError&) {
-    return "";  // the settings of another program; shapes are elsewhere
+    return "";  // settings of another program, without shapes
   }
   std::string kinds;
   for (const Node object : root.children("object"))

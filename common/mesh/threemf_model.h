@@ -1,5 +1,5 @@
-// One XML part of a 3MF file as it is written: objects with meshes or components, and the items of the build.
-// [3MF Core 1.3, 3MF Production 1.2]
+// Contents of one XML part of a 3MF file: objects with meshes or components, and the items of the build. [3MF Core 1.3,
+// 3MF Production 1.2]
 #pragma once
 
 #include <Eigen/Geometry>
@@ -15,35 +15,39 @@ namespace tacipc {
 /// An item of the build, or a component of an object.
 struct ThreeMfReference {
   int object = 0;
-  std::optional<std::string> path;  // the part that has the object; its own if there is none
+  std::optional<std::string> path;  // part that contains the object; absent: the same part
   Eigen::Affine3d placement = Eigen::Affine3d::Identity();
 };
 
+/// An object: a mesh, or components.
 struct ThreeMfObject {
-  std::string type;    // model, surface, other; solidsupport and support are not part of what is built
-  std::string unread;  // why its shape cannot be read, if it cannot
+  std::string type;    // model, surface, other; solidsupport and support are not part of the printed object
+  std::string unread;  // reason why its shape cannot be read; empty if it can
   PartMesh mesh;
-  std::vector<ThreeMfReference> components;  // instead of a mesh
+  std::vector<ThreeMfReference> components;  // replace the mesh
 };
 
+/// Contents of a part.
 struct ThreeMfModel {
-  std::optional<std::string> unit;  // m, cm, mm, um, in, ft, if it says
+  std::optional<std::string> unit;  // m, cm, mm, um, in, ft; absent if not stated
   std::map<int, ThreeMfObject> objects;
   std::vector<ThreeMfReference> items;
 };
 
-/// The part that holds the root model, by the relationships of a package. `place` is the file and the part, for
-/// messages. \throw DataError `PLACE: …`
+/// Returns the part that holds the root model, from the relationships of a package.
+/// \param place file and part, for messages
+/// \throw DataError `PLACE: …` if there is no root model
 std::string root_part_of(std::string relationships, const std::string& place);
 
+/// Whether to read the build; only the root model's build is used.
 enum class ThreeMfBuild { read, ignore };
 
-/// A model; the build counts in the root model alone. \throw DataError `PLACE: …` for what is no XML, no 3MF model, or
-/// breaks its rules; an object whose shape takes an extension that is not read says so in `unread`.
+/// Reads a model. An object whose shape needs an unsupported extension states that in `unread`.
+/// \throw DataError `PLACE: …` if the text is not XML or not a 3MF model, or violates the format
 ThreeMfModel read_threemf_model(std::string xml, const std::string& place, ThreeMfBuild build);
 
-/// Kinds of volumes other than parts, such as ParameterModifier, that the settings of a slicer (PrusaSlicer and others
-/// of its family) find among the triangles of meshes; empty if there are none.
+/// Returns the kinds of volumes that are not parts, such as ParameterModifier, which the settings of a slicer
+/// (PrusaSlicer and others of its family) assign to triangles of meshes; empty if there are none.
 std::string volumes_that_are_no_parts(std::string settings, const std::string& place);
 
 }  // namespace tacipc

@@ -1,4 +1,4 @@
-// A 3MF file: the root model's build, with objects of other parts by their paths.
+// Reads a 3MF file: the root model's build, with objects of other parts by their paths.
 #include <set>
 
 #include "common/base/error.h"
@@ -56,7 +56,7 @@ class Assembly {
                   kinds);
   }
 
-  /// The parts that the build needs beside the root model. Only the root model may name others, so there are no more.
+  /// Reads the parts that the build needs in addition to the root model. Only the root model may name others.
   void read_others() {
     std::set<std::string> paths;
     std::set<int> seen;

@@ -11,7 +11,7 @@
 namespace tacipc {
 namespace {
 
-/// Ear clipping looks at all corners for each corner; real files have no face this large.
+/// Largest number of corners of a face. Ear clipping is quadratic; real files have no larger face.
 constexpr std::size_t kMostCorners = 10'000;
 
 PolygonSoup read_soup(const std::filesystem::path& path) {

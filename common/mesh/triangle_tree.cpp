@@ -22,7 +22,7 @@ double squared_distance_to_segment(const Vector3& p, const Vector3& a, const Vec
 double squared_distance_to_triangle(const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c) {
   const Vector3 n = (b - a).cross(c - a);
   const double n2 = n.squaredNorm();
-  // Above the inside of the triangle the plane is nearest; everywhere else an edge is.
+  // If the point projects into the triangle, the plane is nearest; otherwise an edge is.
   if (n2 > 0.0 && n.cross(b - a).dot(p - a) >= 0.0 && n.cross(c - b).dot(p - b) >= 0.0 &&
       n.cross(a - c).dot(p - c) >= 0.0) {
     const double height = n.dot(p - a);
@@ -59,7 +59,7 @@ void TriangleTree::build(const std::vector<Eigen::AlignedBox3d>& boxes, int firs
     Eigen::Index axis = 0;
     centres.sizes().maxCoeff(&axis);
     const int middle = first + (last - first) / 2;
-    // Ties are broken by index, so the halves do not depend on the library's partition.
+    // Ties are broken by index, so that the halves do not depend on the library's partition.
     std::nth_element(faces_.begin() + first, faces_.begin() + middle, faces_.begin() + last, [&](int a, int b) {
       const double ca = boxes[a].center()[axis], cb = boxes[b].center()[axis];
       return ca != cb ? ca < cb : a < b;

@@ -1,4 +1,4 @@
-// A tree over triangles that answers: how far is the surface, and which triangles are near a box.
+// Bounding-volume tree over triangles, for distance and box queries.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,23 +8,24 @@
 
 namespace tacipc {
 
-/// Squared distance from a point to a closed triangle, m². Triangles of no area count as their edges.
+/// Returns the squared distance from a point to a closed triangle, m². Triangles of no area count as their edges.
 double squared_distance_to_triangle(const Vector3& point, const Vector3& a, const Vector3& b, const Vector3& c);
 
-/// Built once over a mesh that must outlive it; queries may run in several threads.
+/// Tree over a mesh, which must outlive it. Queries may run in several threads.
 class TriangleTree {
  public:
   /// \pre the mesh has a triangle.
   explicit TriangleTree(const TriangleMesh& mesh);
 
-  /// Squared distance from a point to the nearest triangle, m²; exact up to rounding.
+  /// Returns the squared distance from a point to the nearest triangle, m²; exact up to rounding.
   double squared_distance(const Vector3& point) const;
 
-  /// Whether some triangle is at most this far from a point: as squared_distance() finds, but at the first that is.
-  /// `face`: where to look first, and afterwards where it was found; any face to begin with.
+  /// Returns whether a triangle is within a squared distance of a point, as squared_distance() would find, but stops at
+  /// the first.
+  /// \param face face to test first (initially any); on return, the face that was found
   bool within(const Vector3& point, double squared, int& face) const;
 
-  /// Calls visit(face) for each face whose box touches `box`, in an order fixed by the mesh.
+  /// Calls visit(face) for each face whose box touches `box`, in an order that the mesh determines.
   template <typename Visit>
   void overlaps(const Eigen::AlignedBox3d& box, Visit&& visit) const {
     for (int n = 0; n < static_cast<int>(nodes_.size());) {
@@ -39,6 +40,7 @@ class TriangleTree {
     }
   }
 
+  /// Returns the bounding box of a face.
   Eigen::AlignedBox3d box_of(int face) const;
 
  private:
@@ -58,7 +60,7 @@ class TriangleTree {
 
   const TriangleMesh& mesh_;
   std::vector<Node> nodes_;
-  std::vector<int> faces_;  // in leaf order
+  std::vector<int> faces_;  // faces in leaf order
 };
 
 }  // namespace tacipc

@@ -5,8 +5,8 @@
 
 namespace tacipc {
 
-/// Unit vertex normals: triangle normals weighted by the angle at the vertex (Thürmer and Wüthrich 1998), so that the
-/// way a flat region is cut into triangles does not tilt them. Zero for a vertex without a triangle of some area.
+/// Returns unit vertex normals: triangle normals weighted by the angle at the vertex (Thürmer and Wüthrich 1998), so
+/// that the triangulation of a flat region does not tilt them. Zero for a vertex without a triangle of positive area.
 Positions vertex_normals(const Positions& positions, const Triangles& triangles);
 
 }  // namespace tacipc

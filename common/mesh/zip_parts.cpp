@@ -14,15 +14,15 @@
 namespace tacipc {
 namespace {
 
-/// A part's name as it is compared.
+/// Returns a part's name in the form used for comparison.
 std::string compared(std::string_view part) {
   while (part.starts_with('/') || part.starts_with("./")) part.remove_prefix(part.front() == '/' ? 1 : 2);
   std::string name = lower_case(part);
-  std::ranges::replace(name, '\\', '/');  // some writers' archives
+  std::ranges::replace(name, '\\', '/');  // archives of some programs have backslashes
   return name;
 }
 
-/// With %41 as A.
+/// Decodes percent escapes: %41 becomes A.
 std::string percent_decoded(std::string_view text) {
   std::string decoded;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -38,7 +38,7 @@ std::string percent_decoded(std::string_view text) {
   return decoded;
 }
 
-/// One walk over the entries of an archive, by its list at the end.
+/// Walks over the entries of an archive once, by its central directory.
 class Walk {
  public:
   Walk(std::string_view bytes, const std::string& name) : name_(name), zip_(archive_read_new(), archive_read_free) {
@@ -46,7 +46,7 @@ class Walk {
     if (archive_read_open_memory(zip_.get(), bytes.data(), bytes.size()) != ARCHIVE_OK) refuse();
   }
 
-  /// The next entry's name; nothing at the end.
+  /// Returns the next entry's name; nothing at the end.
   std::optional<std::string> next() {
     const int status = archive_read_next_header(zip_.get(), &entry_);
     if (status == ARCHIVE_EOF) return std::nullopt;
@@ -56,7 +56,7 @@ class Walk {
     return inside == nullptr ? "" : inside;
   }
 
-  /// The current entry; nothing if it has more than `most` bytes.
+  /// Unpacks the current entry; nothing if it exceeds `most` bytes.
   std::optional<std::string> unpacked(const std::string& part, std::size_t most) {
     constexpr std::size_t kBlock = std::size_t{1} << 20;
     if (archive_entry_size_is_set(entry_) != 0 && archive_entry_size(entry_) > static_cast<la_int64_t>(most))
@@ -107,7 +107,7 @@ const ZipParts::Entry* ZipParts::entry_of(const std::string& part) const {
 
 std::vector<std::string> ZipParts::read(const std::vector<std::string>& parts) {
   std::vector<std::string> contents(parts.size());
-  std::multimap<std::size_t, std::size_t> wanted;  // entry, place in `parts`
+  std::multimap<std::size_t, std::size_t> wanted;  // entry, index in `parts`
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Entry* entry = entry_of(parts[i]);
     if (entry == nullptr) throw DataError("{}: has no part {}", name_, shown(parts[i]));

@@ -1,4 +1,4 @@
-// Where camera rays meet the membrane, eight at a time, without gaps.
+// Intersects camera rays with the membrane, eight at a time, without gaps between triangles.
 #pragma once
 
 #include <array>
@@ -12,17 +12,21 @@
 
 namespace tacipc {
 
+/// Counts of special rays.
 struct HitCounts {
-  std::int64_t nudged = 0;   // slipped through a vertex and hit after a retry with an offset of 1e-6
-  std::int64_t outside = 0;  // pass beside the membrane
+  std::int64_t nudged = 0;   // rays that slipped through a vertex and hit after a retry with an offset of 1e-6
+  std::int64_t outside = 0;  // rays that pass next to the membrane
 };
 
+/// Result of find_hits().
 struct CameraHits {
   std::array<std::optional<SurfaceHit>, RayPacket::kSize> hits;
-  std::optional<int> fallen;  // the first ray that must meet the membrane and does not, even after a retry
+  std::optional<int> fallen;  // first ray that must meet the membrane but does not, even after a retry
 };
 
-/// What the first `count` of eight rays meet. `packet` is left as it was traced. \pre FlushDenormals lives
+/// Intersects the first `count` of eight rays with the membrane.
+/// \param packet on return, the rays as they were traced
+/// \pre a FlushDenormals object lives on this thread
 CameraHits find_hits(const RayScene& scene, const Membrane& membrane, const CameraRays& rays, int count,
                      RayPacket& packet, HitCounts& counts);
 

@@ -1,4 +1,4 @@
-// Colours and paint onto basis images: the part of rendering that needs no rays.
+// Applies colours and paint to basis images: the part of rendering that needs no rays.
 #include <tbb/parallel_for.h>
 
 #include "common/optics/trace.h"
@@ -6,7 +6,7 @@
 namespace tacipc {
 namespace {
 
-/// out_c += factor_c Σ_g rgb_gc basis_g.
+/// Adds out_c += factor_c Σ_g rgb_gc basis_g.
 void add_colored(const FloatImage& basis, const std::vector<LightGroup>& groups, const std::array<double, 3>& factor,
                  FloatImage& out) {
   if (basis.channels == 0) return;
@@ -73,7 +73,7 @@ FloatImage color_image(const TraceResult& result, const Sensor& sensor, bool wit
   for (std::size_t c = 0; c < 3; ++c) change[c] = sensor.markers.albedo[c] - sensor.coating.albedo[c];
   add_colored(result.marked, groups, change, image);
   add_colored(result.marked_gloss, groups, {-1.0, -1.0, -1.0}, image);
-  // What comes from everywhere meets the markers' paint too.
+  // Ambient light also meets the markers' paint.
   FloatImage everywhere(image.width, image.height, 3);
   if (result.indirect.channels > 0) add_colored(result.indirect, groups, sensor.coating.albedo, everywhere);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {

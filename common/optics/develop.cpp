@@ -22,21 +22,21 @@ namespace {
 
 ToneCurve curve_of(const Response& response) { return ToneCurve::named(response.curve, response.gamma); }
 
-/// code_of eight values.
+/// Returns code_of() for eight values.
 TACIPC_INLINE Pack codes_of(const Pack& v, const ToneCurve& f) {
   constexpr double kLeast = std::numeric_limits<double>::min();
   const Pack power = exponential(logarithm(larger(v, Pack{} + kLeast)) * (1.0 / f.gamma));
   return choose(v, 255.0 * choose(v - f.toe, f.scale * power - f.offset, f.slope * v), Pack{});
 }
 
-/// exposure × signals i … i + 7 of `count`; 0, whose code is 0, where there are fewer.
+/// Returns exposure × signals i … i + 7 of `count`; lanes beyond `count` are 0, whose value is 0.
 TACIPC_INLINE Pack exposed(const float* signal, std::size_t i, std::size_t count, double exposure) {
   Pack v;
   for (std::size_t l = 0; l < kLanes; ++l) v[l] = i + l < count ? signal[i + l] : 0.0F;
   return exposure * v;
 }
 
-/// Codes of a row of signals. Where these are those of `known`, codes are those there.
+/// Computes the 8-bit values of a row of signals. Values of equal signals are copied from `known`.
 TACIPC_CLONES void encode_row(const float* signal, std::size_t count, double exposure, const ToneCurve& f,
                               const float* known, const float* known_codes, float* codes) {
   for (std::size_t i = 0; i < count; i += kLanes) {
@@ -50,7 +50,7 @@ TACIPC_CLONES void encode_row(const float* signal, std::size_t count, double exp
   }
 }
 
-/// Σ min(code, 255) over a row of signals.
+/// Returns Σ min(value, 255) over a row of signals.
 TACIPC_CLONES double sum_of_codes(const float* signal, std::size_t count, double exposure, const ToneCurve& f) {
   Pack sum = {};
   for (std::size_t i = 0; i < count; i += kLanes)
@@ -87,11 +87,13 @@ FloatImage camera_signal(const FloatImage& linear, const Camera& camera, const R
 namespace {
 
 constexpr double kExposureTolerance =
-    1e-12;  // relative, of the exposure and of the mean: what summing leaves of a double's digits
+    1e-12;  // relative tolerance of the exposure and of the mean: the accuracy of the sum in double precision
 
-/// log e where `excess`, which grows with log e, vanishes, from near `guess`: steps that double from `step` until the
-/// root lies between two of them; then false position, whose staying end counts half (Illinois), so that it closes in
-/// from both sides. `negligible`: the largest excess that counts as none. Nothing if 60 steps do not reach the root.
+/// Finds log e at which `excess`, which grows with log e, vanishes, starting near `guess`. Steps double from `step`
+/// until they bracket the root; then false position, with the excess at an unchanged end halved (Illinois), closes in
+/// from both sides.
+/// \param negligible largest excess that counts as zero
+/// \return nothing if 60 steps do not reach the root
 template <typename Excess>
 std::optional<double> solve_increasing(const Excess& excess, double guess, double step, double negligible) {
   double low = guess, low_excess = excess(low), high = low, high_excess = low_excess;
@@ -108,7 +110,7 @@ std::optional<double> solve_increasing(const Excess& excess, double guess, doubl
     high_excess = excess(high += std::min(widening, std::numbers::ln2));
   }
   constexpr int kMaxIterations = 100;
-  int stayed = 0;  // > 0: `high` did so often, < 0: `low`
+  int stayed = 0;  // > 0: number of times `high` stayed, < 0: `low`
   for (int i = 0; i < kMaxIterations && high - low > kExposureTolerance && high_excess > 0.0; ++i) {
     const double share = std::clamp(low_excess / (low_excess - high_excess), 1e-3, 1.0 - 1e-3);
     const double at = low + share * (high - low);
@@ -136,7 +138,7 @@ double solve_exposure(const FloatImage& linear, const Response& response) {
   if (response.exposure) return *response.exposure;
   const float brightest = *std::ranges::max_element(linear.pixels);
   if (!(brightest > 0.0f)) throw DataError("no light reaches the front face: check the positions of the LEDs");
-  // A few of the pixels say nearly what all of them say, in a thirtieth of the time.
+  // A subset of the pixels gives nearly the same exposure in a thirtieth of the time.
   constexpr std::size_t kStride = 31;
   double guess = std::log(1.0 / brightest), step = std::numbers::ln2;
   if (linear.pixels.size() > 1000 * kStride) {
@@ -147,7 +149,7 @@ double solve_exposure(const FloatImage& linear, const Response& response) {
         sum += std::min(code_of(exposure * linear.pixels[i], response), 255.0) - response.mean_level * 255.0;
       return sum;
     };
-    constexpr double kEnough = 1e-3;  // codes
+    constexpr double kEnough = 1e-3;  // 8-bit levels
     const std::size_t count = linear.pixels.size() / kStride;
     if (const auto found = solve_increasing(excess, guess, step, kEnough * static_cast<double>(count))) {
       guess = *found;
@@ -159,7 +161,7 @@ double solve_exposure(const FloatImage& linear, const Response& response) {
   const double wanted = response.mean_level * 255.0 * static_cast<double>(linear.pixels.size());
   const auto excess = [&](double log_exposure) {
     const double exposure = std::exp(log_exposure);
-    // Row by row, so that the threads leave no trace in the rounding.
+    // Sums are per row, so that rounding does not depend on threads.
     std::vector<double> rows(linear.height);
     tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t y) {
       rows[y] = sum_of_codes(&linear.pixels[y * length], length, exposure, curve);
@@ -210,7 +212,7 @@ ByteImage synthetic_reference(const FloatImage& signal, double exposure, const R
 
 namespace {
 
-/// The image of codes `code(i)`, as large as `like`.
+/// Makes the image of values `code(i)`, as large as `like`.
 template <typename T, typename Code>
 TactileImage clamped(const Image<T>& like, const Code& code) {
   TactileImage out{.image = ByteImage(like.width, like.height, like.channels)};
@@ -243,7 +245,7 @@ TactileImage transfer_ratio(const ByteImage& reference, const FloatImage& simula
                             const FloatImage& simulated_reference, double exposure, const Response& response) {
   assert(reference.pixels.size() == simulated.pixels.size());
   assert(reference.pixels.size() == simulated_reference.pixels.size());
-  constexpr double kSmallestDivisor = 1e-4;  // of full scale: below it a ratio says nothing
+  constexpr double kSmallestDivisor = 1e-4;  // fraction of full scale; ratios to smaller values are meaningless
   FloatImage codes(reference.width, reference.height, reference.channels);
   tbb::parallel_for(0, reference.height, [&](int y) {
     const std::size_t length = row_length(codes), row = static_cast<std::size_t>(y);

@@ -12,7 +12,7 @@ namespace tacipc {
 namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMaxCells = 160;         // along the longer side
-constexpr int kSearchRadiusCells = 8;  // cells that the search goes sideways at most
+constexpr int kSearchRadiusCells = 8;  // largest sideways extent of the search, cells
 }  // namespace
 
 Horizon::Horizon(const Membrane& membrane) {
@@ -25,7 +25,7 @@ Horizon::Horizon(const Membrane& membrane) {
   columns_ = static_cast<int>(size.x() / width_) + 1;
   rows_ = static_cast<int>(size.y() / width_) + 1;
   const auto cells = static_cast<std::size_t>(columns_) * rows_;
-  std::vector<double> front(cells, kInfinity), back(cells, -kInfinity), slope(cells, 0.0);  // least and most z
+  std::vector<double> front(cells, kInfinity), back(cells, -kInfinity), slope(cells, 0.0);  // smallest and largest z
   const auto at = [&](int i, int j) { return static_cast<std::size_t>(j * columns_ + i); };
   for (Eigen::Index f = 0; f < membrane.triangles.rows(); ++f) {
     Matrix3 v;
@@ -43,14 +43,14 @@ Horizon::Horizon(const Membrane& membrane) {
   }
   bound_.assign(cells, kFloor);
   std::array<std::array<double, kSearchRadiusCells + 1>, kSearchRadiusCells + 1>
-      gap{};  // between cells with so many others between them
+      gap{};  // distance between cells with so many others between them
   for (int j = 0; j <= kSearchRadiusCells; ++j)
     for (int i = 0; i <= kSearchRadiusCells; ++i) gap[j][i] = width_ * std::hypot(i, j);
   tbb::parallel_for(0, rows_, [&](int row) {
     for (int column = 0; column < columns_; ++column) {
       double& bound = bound_[at(column, row)];
       const double here = back[at(column, row)];
-      // Farther off nothing is high enough to rise by kFloor.
+      // Nothing farther away is high enough to rise by kFloor.
       const double reach = std::clamp((here - low.z()) / (kFloor * width_), 0.0, double{kSearchRadiusCells});
       const int cells_away = static_cast<int>(reach) + 1;
       for (int j = std::max(0, row - cells_away); j <= std::min(rows_ - 1, row + cells_away); ++j) {

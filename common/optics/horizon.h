@@ -1,4 +1,4 @@
-// Where the membrane is too flat to shadow itself: rays that need not be traced.
+// Finds rays that cannot meet the membrane, because it is too flat there to shadow itself.
 #pragma once
 
 #include <vector>
@@ -7,18 +7,19 @@
 
 namespace tacipc {
 
-/// A grid over the membrane as seen along z. For each cell a bound on how steeply anything rises around it, towards the
-/// lights: within the cell and its eight neighbours the steepest triangle, farther away the highest point over the
-/// distance between the cells. A ray from a point of the cell that climbs more steeply than the bound meets nothing:
-/// near by the surface falls behind it everywhere, and what is farther away is not high enough.
+/// Bounds, on a grid over the membrane seen along z, how steeply anything rises around a cell towards the lights.
+/// Within the cell and its eight neighbours the bound is the slope of the steepest triangle; farther away, the highest
+/// point over the distance between the cells. A ray from a point of the cell that is steeper than the bound meets
+/// nothing: nearby the surface falls behind it, and farther away nothing is high enough.
 class Horizon {
  public:
   explicit Horizon(const Membrane& membrane);
 
-  /// Height over distance, at least kFloor; infinite where the surface folds over, and beside the grid.
+  /// Returns the bound, height over distance, at least kFloor; infinite where the surface folds over, and outside the
+  /// grid.
   double steepness(double x, double y) const;
 
-  static constexpr double kFloor = 0.5;  // lower lights are always traced; keeps the search short
+  static constexpr double kFloor = 0.5;  // lower lights are always traced, which keeps the search short
 
  private:
   int cell(double at, double low, int count) const;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kOffset = 1e-6;  // m: keeps rays off the triangles around their vertex
 
-/// Where a ray that meets nothing in the gel comes back from the layers.
+/// Return of a ray that meets nothing in the gel: it is mirrored at the layers.
 struct Mirrored {
   Vector3 origin;     // on the gel's back
   Vector3 direction;  // towards the membrane
@@ -30,12 +30,12 @@ std::optional<Mirrored> mirrored(const Vector3& origin, const Vector3& direction
   const double down = -direction.z();
   if (down < 1e-3) return std::nullopt;
   double index = *stack.gel_ior, sine = std::sqrt(std::max(0.0, 1.0 - down * down));
-  const double through_gel = (origin.z() + stack.gel_thickness_m) * sine / down;  // sideways
+  const double through_gel = (origin.z() + stack.gel_thickness_m) * sine / down;  // lateral displacement
   double through_layers = 0.0, reflectance = 1.0;
   bool total = false;
   for (const Layer& layer : stack.layers) {
     const double bent = sine * index / layer.ior;
-    if (bent >= 1.0) {  // turned back already here
+    if (bent >= 1.0) {  // total reflection at this interface
       total = true;
       break;
     }

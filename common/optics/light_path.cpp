@@ -9,7 +9,7 @@ namespace {
 
 TACIPC_INLINE Pack positive(const Pack& x) { return choose(x, x, Pack{}); }
 
-/// Share of the intensity that leaves at an angle of this cosine from the normal.
+/// Returns the fraction of the intensity emitted at an angle of this cosine from the normal.
 TACIPC_INLINE Pack emitted(const LightSample& sample, const Pack& cosine) {
   if (sample.emission == Emission::isotropic) return Pack{} + 1.0;
   if (sample.emission == Emission::lambertian) return positive(cosine);
@@ -18,7 +18,7 @@ TACIPC_INLINE Pack emitted(const LightSample& sample, const Pack& cosine) {
   return out;
 }
 
-/// 0 where light that leaves the sample in `direction` meets the scattering ring, else 1.
+/// Returns 0 if light that leaves the sample in `direction` meets the scattering ring, else 1.
 TACIPC_INLINE Pack past_screen(const LightSample& sample, const Pack3& direction) {
   const Pack t = (sample.screen->z_m - sample.position_m.z()) / direction.z;
   const Pack x = sample.position_m.x() + t * direction.x, y = sample.position_m.y() + t * direction.y;
@@ -60,27 +60,29 @@ TACIPC_INLINE void incident(const Pack3& point, const LightSample& sample, PathS
   sample.stack ? layered(point, sample, start, out) : straight(point, sample, out);
 }
 
-/// Smith's root for a direction with this cosine to the normal.
+/// Returns Smith's square root for a direction with this cosine to the normal.
 TACIPC_INLINE Pack smith_root(const Coating& coating, const Pack& cosine) {
   const double a2 = coating.ggx_alpha * coating.ggx_alpha;
   return root(a2 + (1.0 - a2) * cosine * cosine);
 }
 
-/// `facing`: positive n·v, `shadowing`: its Smith's root.
+/// Computes the coating's response.
+/// \param facing positive n·v
+/// \param shadowing Smith's square root of n·v
 TACIPC_INLINE void respond(const SurfacePack& surface, const Pack3& light, const Coating& coating, const Pack& facing,
                            const Pack& shadowing, CoatingResponse& out) {
   const Pack nl = positive(dot(surface.normal, light));
   out.diffuse = std::numbers::inv_pi * nl;
   out.gloss = Pack{};
   if (coating.specular_f0 <= 0.0) return;
-  // With l and v of length 1, |l + v|² = 2 + 2 l·v = b, so that n·h = (n·l + n·v) / √b and h·v = √b / 2.
+  // With |l| = |v| = 1, |l + v|² = 2 + 2 l·v = b, so that n·h = (n·l + n·v) / √b and h·v = √b / 2.
   const Pack b = larger(2.0 + 2.0 * dot(light, surface.view), Pack{} + 1e-30), sum = nl + facing;
   const double a2 = coating.ggx_alpha * coating.ggx_alpha, f0 = coating.specular_f0;
   const Pack spread = sum * sum * (a2 - 1.0) + b;  // D = α² b² / (π spread²)
   const Pack smith = facing * smith_root(coating, nl) + nl * shadowing;
   const Pack away = 1.0 - 0.5 * root(b), squared = away * away;
   const Pack fresnel = f0 + (1.0 - f0) * squared * squared * away;
-  // G / (4 n·l n·v) = 1 / (2 (n·v √… + n·l √…)): no division by what vanishes at grazing angles.
+  // G / (4 n·l n·v) = 1 / (2 (n·v √… + n·l √…)): no division by terms that vanish at grazing angles.
   const Pack lobe = nl * (0.5 * a2 * std::numbers::inv_pi) * b * b * fresnel / (spread * spread * (smith + 1e-12));
   out.gloss = choose(nl, choose(facing, lobe, Pack{}), Pack{});
 }
@@ -100,7 +102,8 @@ TACIPC_CLONES void find_response(const SurfacePack& surface, const Pack3& light,
   respond(surface, light, coating, facing, smith_root(coating, facing), out);
 }
 
-/// False if all that arrives is added, else `doubtful` is filled, `left` greater than 0 where it is wanted.
+/// Adds light that cannot be blocked.
+/// \return false if lanes remain; then `doubtful` is filled, and `left` is greater than 0 in these lanes
 TACIPC_CLONES bool add_certain(const LitPack& places, const LightSample& sample, const Coating& coating,
                                PathStart& start, CoatingResponse& sum, DoubtfulLight& doubtful, Pack& left) {
   IncidencePack light;
@@ -110,11 +113,11 @@ TACIPC_CLONES bool add_certain(const LitPack& places, const LightSample& sample,
   const Pack factor = light.irradiance * places.transmittance;
   response.diffuse *= factor;
   response.gloss *= factor;
-  // What is steeper than any surface around it is unobstructed: all of a flat face, most of a pressed one.
+  // Light steeper than any surface around is unobstructed: everywhere on a flat face, mostly on a pressed one.
   const Pack3& w = light.direction;
   const Pack over = w.z * w.z - places.squared_steepness * (w.x * w.x + w.y * w.y);
   const Pack certain = choose(over, -w.z, Pack{}), none{};
-  // What no light reaches has no gloss either.
+  // Surface that faces away from the light has no gloss either.
   const Pack diffuse = choose(response.diffuse, response.diffuse, none);
   const Pack gloss = choose(response.diffuse, response.gloss, none);
   sum.diffuse += choose(certain, diffuse, none);
@@ -125,7 +128,7 @@ TACIPC_CLONES bool add_certain(const LitPack& places, const LightSample& sample,
   return true;
 }
 
-/// Patches of the diffuser that one LED lights, as lights of their own.
+/// Adds patches of the diffuser that one LED illuminates, as lights.
 void add_diffused(const Led& led, const LightSample& like, std::vector<LightSource>& sources) {
   constexpr int kRings = 4, kSectors = 48;
   const Diffuser& ring = *like.screen;
@@ -153,7 +156,7 @@ void add_diffused(const Led& led, const LightSample& like, std::vector<LightSour
       total += patch.weight;
     }
   }
-  // What the dim patches (below 2 % of the brightest) would send goes with the others.
+  // The light of dim patches (below 2 % of the brightest) is added to the others.
   for (const LightSample& patch : patches) kept += patch.weight >= 0.02 * brightest ? patch.weight : 0.0;
   for (LightSample& patch : patches) {
     if (patch.weight < 0.02 * brightest || patch.weight <= 0.0) continue;
@@ -162,7 +165,7 @@ void add_diffused(const Led& led, const LightSample& like, std::vector<LightSour
   }
 }
 
-/// Places in (−1/2, 1/2) and their shares of an edge.
+/// Points in (−1/2, 1/2) and their weights along an edge.
 struct EdgePoint {
   double at, share;
 };
@@ -172,8 +175,8 @@ std::vector<EdgePoint> midpoints(int count) {
   return points;
 }
 
-/// Gauss–Legendre: roots of P_n by Newton's method, n P_n = (2n − 1) x P_{n−1} − (n − 1) P_{n−2}, from the cosines that
-/// lie next to them; shares 1 / ((1 − x²) P_n'²).
+/// Returns Gauss–Legendre points: roots of P_n by Newton's method, n P_n = (2n − 1) x P_{n−1} − (n − 1) P_{n−2},
+/// starting from cosines near them; weights 1 / ((1 − x²) P_n'²).
 std::vector<EdgePoint> gauss_points(int count) {
   std::vector<EdgePoint> points;
   for (int i = 0; i < count; ++i) {
@@ -193,7 +196,7 @@ std::vector<EdgePoint> gauss_points(int count) {
   return points;
 }
 
-/// The edges of an LED's rectangle.
+/// Returns the edge vectors of an LED's rectangle.
 std::array<Vector3, 2> edges_of(const Led& led) {
   Vector3 outwards = led.position_m - Vector3::UnitZ() * led.position_m.z();
   outwards -= led.normal * led.normal.dot(outwards);
@@ -202,7 +205,7 @@ std::array<Vector3, 2> edges_of(const Led& led) {
   return {led.size_m[0] * first, led.size_m[1] * led.normal.cross(first)};
 }
 
-/// What an LED is made of: points of its rectangle as `like` says.
+/// Returns sample points of an LED's rectangle with the properties of `like`.
 std::vector<LightSample> points_of(const Led& led, LightSample like, const std::vector<EdgePoint>& edge,
                                    const OpticalStack& layers) {
   const auto [first, second] = edges_of(led);
@@ -211,7 +214,7 @@ std::vector<LightSample> points_of(const Led& led, LightSample like, const std::
     for (const EdgePoint& b : edge) {
       like.position_m = led.position_m + a.at * first + b.at * second;
       like.weight = led.intensity * a.share * b.share;
-      // A tilted emitter's points lie at different heights, so each has its own path through the first medium.
+      // Points of a tilted emitter have different heights, so each has its own path through the first medium.
       if (like.stack) like.stack = layers.from(std::min(like.position_m.z(), -layers.gel_thickness_m - 1e-9));
       points.push_back(like);
     }
@@ -222,7 +225,7 @@ std::vector<LightSample> points_of(const Led& led, LightSample like, const std::
 }  // namespace
 
 std::vector<LightSource> light_sources(const Sensor& sensor, int edge_samples, bool refract) {
-  constexpr double kSharpLobe = 0.2;  // a highlight of less would show the points
+  constexpr double kSharpLobe = 0.2;  // a narrower highlight would show the sample points
   const bool even_paint = sensor.coating.specular_f0 <= 0.0 || sensor.coating.ggx_alpha >= kSharpLobe;
   std::vector<LightSource> sources;
   const std::vector<LightGroup> groups = light_groups(sensor.leds);
@@ -265,8 +268,8 @@ std::vector<LightSample> light_samples(const Sensor& sensor, int edge_samples, b
 
 double least_squared_elevation(const LightSource& source, const Sensor& sensor, const Vector3& low,
                                const Vector3& high) {
-  // The lower in the gel and the farther off sideways a point lies, and the nearer the light is to the gel, the lower
-  // does its light arrive: the worst of each at once.
+  // Elevation of the arriving light falls with depth and lateral distance of the point, and with the light's closeness
+  // to the gel: take the worst of each at once.
   LightSample nearest = source.grid.front();
   nearest.position_m.z() = source.high_m.z();
   if (nearest.stack) nearest.stack = sensor.stack.from(std::min(source.high_m.z(), -nearest.gel_thickness_m - 1e-9));

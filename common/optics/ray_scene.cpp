@@ -13,7 +13,7 @@ namespace tacipc {
 struct RayScene::Handles {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
-  RTCGeometry geometry = nullptr;  // the scene owns it
+  RTCGeometry geometry = nullptr;  // owned by the scene
   float* vertices = nullptr;
   ~Handles() {
     if (scene) rtcReleaseScene(scene);
@@ -35,7 +35,7 @@ RayScene::RayScene(const Positions& positions, const Triangles& triangles) : han
   h.device = rtcNewDevice(nullptr);
   if (!h.device) check(nullptr, "start");
   h.scene = rtcNewScene(h.device);
-  // Without the robust flag rays fall through shared edges: structured camera rays hit edges exactly.
+  // Without the robust flag rays pass through shared edges: structured camera rays hit edges exactly.
   rtcSetSceneFlags(h.scene, RTC_SCENE_FLAG_ROBUST);
   h.geometry = rtcNewGeometry(h.device, RTC_GEOMETRY_TYPE_TRIANGLE);
   h.vertices =
@@ -58,7 +58,7 @@ void RayScene::move(const Positions& positions) {
   for (Eigen::Index i = 0; i < positions.size(); ++i) h.vertices[i] = static_cast<float>(positions.data()[i]);
   rtcUpdateGeometryBuffer(h.geometry, RTC_BUFFER_TYPE_VERTEX, 0);
   rtcCommitGeometry(h.geometry);
-  // One thread, so that the tree, and with it which of two triangles an edge hit reports, is always the same.
+  // One thread, so that the tree, and with it the triangle reported for a hit on an edge, is always the same.
   tbb::task_arena one_thread(1);
   one_thread.execute([&] { rtcCommitScene(h.scene); });
   check(h.device, "build the tree");

@@ -1,4 +1,4 @@
-// First triangle on a ray, and occlusion of segments (by Embree).
+// Ray tracing by Embree: first triangle on a ray, and occlusion of segments.
 #pragma once
 
 #include <array>
@@ -10,15 +10,16 @@
 
 namespace tacipc {
 
-/// Eight rays side by side, in single precision as the tracer takes them.
+/// Eight rays, in single precision as Embree takes them.
 struct alignas(32) RayPacket {
   static constexpr int kSize = 8;
   using Lanes = std::array<float, kSize>;
   Lanes origin_x, origin_y, origin_z;
   Lanes direction_x, direction_y, direction_z;
-  Lanes far;                // length of the segment in directions; rays ahead have none
-  std::uint32_t valid = 0;  // bit i: ray i counts
+  Lanes far;                // length of the segment in units of the direction; not used by first_hits()
+  std::uint32_t valid = 0;  // bit i: ray i is traced
 
+  /// Sets the ray of a lane and marks it valid.
   void set(int lane, const Vector3& origin, const Vector3& direction, double length) {
     origin_x[lane] = static_cast<float>(origin.x());
     origin_y[lane] = static_cast<float>(origin.y());
@@ -31,23 +32,25 @@ struct alignas(32) RayPacket {
   }
 };
 
-/// Triangles ready for rays. Built on one thread and queried in robust mode, so the answers depend neither on the
-/// number of threads nor on rays that pass exactly through edges (a ray through a vertex may still slip through).
+/// Triangles prepared for ray queries. Built on one thread and queried in robust mode, so that results do not depend on
+/// the number of threads, and rays through edges always hit (a ray exactly through a vertex may slip through).
 class RayScene {
  public:
-  /// \throw DataError if Embree cannot be started or refuses the mesh.
+  /// Builds the scene.
+  /// \throw DataError if Embree cannot be started or refuses the mesh
   RayScene(const Positions& positions, const Triangles& triangles);
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
-  /// The same triangles elsewhere: the next frame of a press. \pre as many vertices as before
+  /// Moves the vertices: the next frame of a press run.
+  /// \pre as many vertices as before
   void move(const Positions& positions);
 
-  /// Index of the nearest triangle ahead of each valid ray, whichever side it shows; −1 for none.
+  /// Returns the index of the nearest triangle ahead of each valid ray, whichever side faces it; −1 for none.
   std::array<int, RayPacket::kSize> first_hits(const RayPacket& rays) const;
 
-  /// Bit i is set if something lies on the segment of valid ray i.
+  /// Returns bits: bit i is set if anything lies on the segment of valid ray i.
   std::uint32_t blocked(const RayPacket& rays) const;
 
  private:

@@ -1,4 +1,4 @@
-// The membrane as the sensor's camera sees it, pixel by pixel: what a light field (common/sensor/light_field.h) shades.
+// Computes the view of the membrane, pixel by pixel, that a light field (common/sensor/light_field.h) shades.
 #pragma once
 
 #include "common/optics/trace.h"
@@ -6,13 +6,14 @@
 
 namespace tacipc {
 
-/// The front face as `triangles` (outward) over vertices at `positions` (m, frame S), one ray through each pixel's
-/// centre. A flat front is taken for granted where nothing is seen.
-/// \throw DataError if a ray inside the front's outline slips through it even after a retry, or a pixel looks away from
-/// the plane z = 0.
+/// Traces one ray through each pixel's centre to the front face, given as `triangles` (outward) over vertices at
+/// `positions` (m, frame S). Pixels without a hit count as flat front.
+/// \throw DataError if a ray inside the front's outline slips through it even after a retry, or a pixel's ray does not
+/// meet the plane z = 0
 MembraneView view_membrane(const Positions& positions, const Triangles& triangles, const Sensor& sensor);
 
-/// The same from what was traced already: mean depth and normal of each pixel's rays. \pre traced with this sensor
+/// Computes the view from a traced picture: mean depth and normal of each pixel's rays.
+/// \pre traced with this sensor
 MembraneView view_of(const TraceResult& traced, const Sensor& sensor, bool refract = true);
 
 }  // namespace tacipc

@@ -7,8 +7,8 @@
 namespace tacipc {
 namespace {
 
-/// Barycentric weights of the point where a line meets a triangle's plane, moved into the triangle: the ray tracer
-/// decided in single precision that it is hit, so what lies outside is rounding, or the line lies in the plane.
+/// Returns barycentric weights of the point where a line meets a triangle's plane, clamped to the triangle. The ray
+/// tracer found the hit in single precision, so a point outside is due to rounding, or the line lies in the plane.
 Vector3 barycentric(const std::array<Vector3, 3>& v, const Ray& ray) {
   const Vector3 e1 = v[1] - v[0], e2 = v[2] - v[0];
   const Vector3 p = ray.direction.cross(e2);
@@ -62,7 +62,7 @@ bool inside_outline(const Membrane& membrane, const Ray& ray) {
     const Eigen::Vector2d a = project(edge[0]), b = project(edge[1]), ab = b - a;
     const double t = std::clamp(-a.dot(ab) / std::max(ab.squaredNorm(), 1e-300), 0.0, 1.0);
     if ((a + t * ab).norm() < kTolerance) return false;
-    const double side = a.x() * b.y() - a.y() * b.x();  // > 0: the line lies to the left of the edge
+    const double side = a.x() * b.y() - a.y() * b.x();  // > 0: the line is to the left of the edge
     if (a.y() <= 0.0 && b.y() > 0.0 && side > 0.0) ++winding;
     if (a.y() > 0.0 && b.y() <= 0.0 && side < 0.0) --winding;
   }

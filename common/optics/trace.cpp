@@ -34,7 +34,7 @@ struct PixelSums {
   std::array<int, 3> contacts{};
 };
 
-/// The class that most rays have; of two as many, the higher one.
+/// Returns the class with the most rays; of a tie, the higher one.
 template <std::size_t N>
 std::uint8_t most(const std::array<int, N>& counts) {
   std::size_t best = 0;
@@ -132,7 +132,8 @@ class RowTracer {
  private:
   using Hits = std::array<std::optional<SurfaceHit>, kLanes>;
 
-  /// Adds up what reaches the hits from every light and is reflected to the camera. `starts`: of the pack before.
+  /// Adds the light from every source that the hits reflect to the camera.
+  /// \param starts path starts of the previous pack
   void gather_light(const Hits& hits, const CameraRays& rays, std::vector<PathStart>& starts,
                     std::vector<CoatingResponse>& light) const {
     std::ranges::fill(light, CoatingResponse{});
@@ -140,7 +141,7 @@ class RowTracer {
     SurfacePack& surface = places.surface;
     bool lit = false;
     for (int l = 0; l < kLanes; ++l) {
-      // Empty lanes do as a point of the flat face.
+      // Empty lanes behave like a point of the flat face.
       const SurfaceHit* hit = hits[l] ? &*hits[l] : nullptr;
       if (hit && hit->from_inside) {
         lit = true;
@@ -155,7 +156,7 @@ class RowTracer {
     }
     if (!lit) return;
     prepare(sensor_.coating, places);
-    // Places that nothing around rises steeply over see the whole of every light, and need fewer points of it.
+    // Points above whose surroundings nothing rises steeply see every light completely, and need fewer sample points.
     LitPack open = places;
     bool any_open = false, any_other = false;
     for (int l = 0; l < kLanes; ++l) {
@@ -207,7 +208,7 @@ class RowTracer {
     return sum;
   }
 
-  /// Adds all that is not a light; true if the point belongs to a printed marker.
+  /// Adds all quantities except light; returns true if the point belongs to a printed marker.
   bool add_geometry(const SurfaceHit& hit, PixelSums& pixel) const {
     ++pixel.hits;
     pixel.depth += hit.point.z() - sensor_.camera.position_m.z();
@@ -256,12 +257,12 @@ class RowTracer {
   Horizon horizon_;
   CameraModel camera_;
   std::vector<LightSource> sources_;
-  std::optional<double> least_elevation_;  // squared tangent, of light of the sources with points for full sight
+  std::optional<double> least_elevation_;  // squared tangent, for light of sources with points for full sight
   std::size_t sample_count_ = 0;
   int subpixels_;
   std::size_t groups_;
   RayLog* log_;
-  VertexLight indirect_;  // no rows: not wanted
+  VertexLight indirect_;  // no rows: not computed
 };
 
 }  // namespace

@@ -34,7 +34,7 @@ double metallic_light(const Vector3& point, const Vector3& normal, const Vector3
   constexpr double kDiffuse = kBase * (1.0 - kDielectric) * (1.0 - kMetallic);          // c_d
   constexpr double kShadowing = (kRoughness + 1.0) * (kRoughness + 1.0) / 8.0;          // k
   constexpr double kAlphaSquared = kRoughness * kRoughness * kRoughness * kRoughness;   // α², α = ρ²
-  constexpr double kWholeNumberColors = 255.0;  // the renderer takes whole numbers for codes
+  constexpr double kWholeNumberColors = 255.0;  // the renderer takes whole numbers as 8-bit values
   const Vector3 way = lamp - point;
   const double squared = way.squaredNorm();
   const Vector3 l = way / std::sqrt(squared), v = (camera - point).normalized(), h = (l + v).normalized();

@@ -16,19 +16,19 @@
 namespace tacipc {
 namespace {
 
-constexpr int kTries = 4000;  // places of the surface, after which an object counts as not to be gripped
+constexpr int kTries = 4000;  // points drawn before the object counts as not graspable
 constexpr int kRim = 8;       // points on the rim of a patch
-constexpr int kHalvings = 3;  // of a patch that no place has, after which none is asked for
-constexpr int kCorners = 16;  // of the polygon around a round front
+constexpr int kHalvings = 3;  // halvings of the patch before it is ignored
+constexpr int kCorners = 16;  // corners of the polygon around a round front
 constexpr double kRounding = 1e-9;
-constexpr double kUnit = 1e-6;  // by which the length of a quaternion may differ from 1
+constexpr double kUnit = 1e-6;  // tolerance of a quaternion's length
 
-/// What rules a place out, in the order in which it is asked.
+/// Conditions that rule out a point, in the order of their test.
 enum class Ruled { narrow, wide, cone, patch, blocked, count };
 
-/// Half-planes n · (y, z) ≤ offset whose intersection a front is, seen along the line of the grasp. Both fronts have
-/// their width along y and their height along z, mirrored to each other, which a front symmetric about its middle does
-/// not show.
+/// A half-plane n · (y, z) ≤ offset; a front is an intersection of them, seen along the grasp line. Both fronts have
+/// their width along y and their height along z. They are mirrored to each other, which makes no difference, because a
+/// front is symmetric about its middle.
 struct HalfPlane {
   Eigen::Vector2d normal;
   double offset = 0.0;
@@ -50,7 +50,7 @@ std::vector<HalfPlane> outline_of(const GelShape& front) {
 
 using Polygon = std::vector<Vector3>;
 
-/// The part of a convex polygon where value(x) ≤ 0, a linear function. [Sutherland and Hodgman 1974]
+/// Clips a convex polygon to value(x) ≤ 0, a linear function. [Sutherland and Hodgman 1974]
 template <typename Value>
 void clip(Polygon& polygon, Polygon& scratch, const Value& value) {
   scratch.clear();
@@ -63,14 +63,14 @@ void clip(Polygon& polygon, Polygon& scratch, const Value& value) {
   std::swap(polygon, scratch);
 }
 
-/// The object as the hand sees it: p in the origin, the line of the grasp along x.
+/// The object in the hand's frame: p at the origin, the grasp line along x.
 class SeenObject {
  public:
   SeenObject(const TriangleMesh& object, const Vector3& p, const Matrix3& hand_from_object)
       : triangles_(object.triangles),
         at_((object.positions.rowwise() - p.transpose()) * hand_from_object.transpose()) {}
 
-  /// First and last place along x of the object on the line through (y, z), and the face of the last.
+  /// First and last intersection along x of the object with the line through (y, z), and the face of the last.
   struct Crossing {
     double first = std::numeric_limits<double>::infinity(), last = -std::numeric_limits<double>::infinity();
     Eigen::Index last_face = -1;
@@ -83,7 +83,7 @@ class SeenObject {
       if ((corner[0].x() > 0 && corner[1].x() > 0 && corner[2].x() > 0) ||
           (corner[0].x() < 0 && corner[1].x() < 0 && corner[2].x() < 0))
         continue;
-      // Twice the areas of the three parts that the point divides the triangle into. Edges belong to both sides.
+      // Twice the areas of the three parts into which the point divides the triangle. Edges belong to both sides.
       std::array<double, 3> part;
       for (int k = 0; k < 3; ++k) {
         const Eigen::Vector2d &b = corner[(k + 1) % 3], &c = corner[(k + 2) % 3];
@@ -99,7 +99,7 @@ class SeenObject {
     return found;
   }
 
-  /// Whether the object reaches beyond x (towards −x for `side` −1, towards +x for +1) within the outline.
+  /// Returns whether the object extends beyond x (towards −x for `side` −1, towards +x for +1) within the outline.
   bool reaches(int side, double x, const std::vector<HalfPlane>& outline) const {
     Polygon polygon, scratch;
     for (Eigen::Index t = 0; t < triangles_.rows(); ++t) {
@@ -128,10 +128,10 @@ class SeenObject {
   Positions at_;
 };
 
-/// Axes of the hand, as rows in those of the object: x along `line`, z upwards or turned from there about x.
+/// Returns the axes of the hand, as rows in the object's axes: x along `line`, z upwards or rotated from there about x.
 Matrix3 hand_from_object(const Vector3& line, double roll_rad) {
   Vector3 up = Vector3::UnitZ() - line.z() * line;
-  // Where the line is z itself every direction across it is as good.
+  // If the line is z itself, every direction across it is equivalent.
   if (up.norm() < 1e-6) up = Vector3::UnitY() - line.y() * line;
   up.normalize();
   const Vector3 z = std::cos(roll_rad) * up + std::sin(roll_rad) * line.cross(up);
@@ -189,7 +189,8 @@ GraspDraw GraspDraw::read_limits(ConfigReader& in) {
 
 namespace {
 
-/// \throw DataError if no place has a patch as wide as `draw` asks for
+/// Draws a grasp with a patch of fixed width.
+/// \throw DataError if no point has a patch as wide as `draw` requires
 GraspPose draw_with_patch(const TriangleMesh& object, const Vector3& center_of_mass_m, const GelShape& front,
                           double friction, const GraspDraw& draw) {
   std::vector<double> area_up_to;

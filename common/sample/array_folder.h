@@ -1,5 +1,6 @@
-// Arrays of a folder that a stage wrote: read with all checks of their declarations, written as outputs of the stage.
-// Each kind of folder declares its arrays in a unit of its own (press_folder, scene_folder, robot_folder).
+// Reads and writes the arrays of a folder that a stage produced. Reading checks every array against its declaration;
+// writing registers each file as an output of the stage. Each kind of folder declares its arrays in a unit of its own
+// (press_folder, scene_folder, robot_folder).
 #pragma once
 
 #include <array>
@@ -23,13 +24,13 @@
 
 namespace tacipc {
 
-/// Symbol of shapes: the frames of a folder.
+/// Symbol in array shapes: number of frames in the folder.
 inline constexpr std::string_view kFrames = "frames";
 
-/// The declaration of one of several files of a kind: with `name` in place of the word in <>.
+/// Returns the declaration of one file of a family: `field` with `name` in place of the word in <>.
 NpyField field_named(NpyField field, std::string_view name);
 
-/// Adds the numbers of an item to those of an array, row-major.
+/// Appends the numbers of an item to those of an array, row-major.
 inline void append_numbers(std::vector<double>& all, double number) { all.push_back(number); }
 template <typename Code>
 requires std::is_enum_v<Code>
@@ -55,7 +56,7 @@ void append_numbers(std::vector<double>& all, const std::array<Item, count>& ite
   for (const Item& item : items) append_numbers(all, item);
 }
 
-/// Reads an item and moves `at` behind its numbers.
+/// Reads an item and moves `at` past its numbers.
 inline void take(const double*& at, double& number) { number = *at++; }
 inline void take(const double*& at, Matrix4& pose) { pose = pose_of(at), at += 16; }
 inline void take(const double*& at, Vector3& v) { v = {at[0], at[1], at[2]}, at += 3; }
@@ -66,7 +67,7 @@ void take(const double*& at, std::array<double, count>& numbers) {
   for (double& number : numbers) take(at, number);
 }
 
-/// The items that the numbers of an array stand for, one after the other.
+/// Splits the numbers of an array into items.
 template <typename Item>
 std::vector<Item> items_of(const std::vector<double>& numbers) {
   std::vector<Item> items;
@@ -74,35 +75,41 @@ std::vector<Item> items_of(const std::vector<double>& numbers) {
   return items;
 }
 
-/// Reads a folder, of each array only the values that are asked for. Every reader throws DataError if the file is
-/// missing, its shape is not the declared one or does not fit the other arrays, a number that has to be finite is not,
-/// or the file is not the one that the record beside it vouches for by its hash. Not for several threads at once.
+/// Reads arrays from a folder, and of each array only the requested values. Not thread-safe.
+/// \throw DataError from every reader: if the file is missing, its shape differs from the declared one or does not fit
+/// the other arrays, a number that must be finite is not, or its hash differs from the one in the record next to it
 class ArrayFolder {
  public:
-  /// \param stage that wrote the folder; its record is <stage>.yaml
-  /// \param known extents of symbols that the caller knows from elsewhere (the gel, the record)
+  /// \param stage name of the stage that wrote the folder; its record is <stage>.yaml
+  /// \param known extents of shape symbols that are known from other sources (gel mesh, record)
   ArrayFolder(std::filesystem::path folder, std::string stage, Extents known = {});
+  /// Opens the folder of a finished stage.
   /// \throw DataError if there is no record, so the stage did not finish
   static ArrayFolder finished(std::filesystem::path folder, std::string stage, Extents known = {});
 
   const std::filesystem::path& folder() const { return folder_; }
-  /// Summary of the record. \pre the stage finished
+  /// Returns the summary of the record.
+  /// \pre the stage finished
   Record summary() const { return record_->section("summary"); }
-  /// Adds what symbols of shapes stand for. \pre they are not known yet
+  /// Adds extents of shape symbols.
+  /// \pre the symbols are not known yet
   void know(Extents extents) { known_.merge(extents); }
+  /// Returns the path of an array's file.
   std::filesystem::path path(const NpyField& field) const { return folder_ / field.file; }
+  /// Returns whether the array's file exists.
   bool has(const NpyField& field) const;
-  /// Checks the shape. Reads no values.
+  /// Checks the shape without reading values.
   void require(const NpyField& field) const { open(field); }
-  /// Length that a symbol of this array's shape stands for.
+  /// Returns the extent of a symbol in this array's shape.
   std::size_t extent(const NpyField& field, std::string_view symbol) const;
-  /// All values, row-major.
+  /// Returns all values, row-major.
   std::vector<double> whole(const NpyField& field) const;
+  /// Returns all values as items.
   template <typename Item>
   std::vector<Item> items(const NpyField& field) const {
     return items_of<Item>(whole(field));
   }
-  /// The values of one entry of the first axis.
+  /// Returns the values of one entry of the first axis.
   std::vector<double> frame_of(const NpyField& field, std::size_t frame) const;
 
  private:
@@ -112,25 +119,29 @@ class ArrayFolder {
 
   std::filesystem::path folder_;
   std::string record_name_;
-  std::optional<Record> record_;                   // none before the stage has finished
-  mutable Extents known_;                          // grows with every array that is looked at
-  mutable std::map<std::string, NpyFrames> open_;  // files that are read frame by frame
-  std::map<std::string, std::string> vouched_;     // hashes of the record, as far as there is one
-  mutable std::set<std::string> unchanged_;        // files that were compared with them
+  std::optional<Record> record_;                   // empty until the stage has finished
+  mutable Extents known_;                          // extents so far; every opened array adds to them
+  mutable std::map<std::string, NpyFrames> open_;  // files being read frame by frame
+  std::map<std::string, std::string> vouched_;     // hashes in the record; empty without one
+  mutable std::set<std::string> unchanged_;        // files whose hash was found to match
 };
 
-/// Writes arrays of a folder, as outputs of a stage. An array is an NpyField, or a code for which field_of() gives one.
+/// Writes arrays of a folder as outputs of a stage. An array is an NpyField, or an enumerator that field_of() maps to
+/// one.
 class ArrayWriter {
  public:
-  /// \param folder below --out
+  /// \param extents extents of the symbols in the arrays' shapes
+  /// \param folder folder below --out
   ArrayWriter(Stage& stage, Extents extents, std::filesystem::path folder = {})
       : stage_(stage), extents_(std::move(extents)), folder_(std::move(folder)) {}
 
+  /// Writes an array from its row-major values.
   void write(const NpyField& field, const std::vector<double>& values) const;
   template <typename Array>
   requires std::is_enum_v<Array>
   void write(Array array, const std::vector<double>& values) const { write(field_of(array), values); }
-  /// `part` gives the item of this array that each of the frames has, or an entry of its first axis.
+  /// Writes an array from a list of frames.
+  /// \param part maps a frame to this array's entry of the first axis
   template <typename Array, typename Frames, typename Part>
   void write(const Array& array, const Frames& frames, Part&& part) const {
     std::vector<double> values;

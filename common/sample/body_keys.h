@@ -1,4 +1,4 @@
-// Keys of a file that say what a body is: the same in a scene and in a robot's task.
+// Reads the keys that describe a body, shared by scene files and robot tasks.
 #pragma once
 
 #include <optional>
@@ -9,24 +9,25 @@
 
 namespace tacipc {
 
-/// A name that is a folder's, too: letters, digits, _ and -.
+/// Reads a name that can also name a folder: letters, digits, _ and -.
 std::string read_body_name(ConfigReader& in, const std::string& key);
 
-/// Three numbers times `unit`; zero where the key is absent.
+/// Reads three numbers and multiplies them by `unit`. Zero if the key is absent.
 Vector3 read_triple(ConfigReader& in, const std::string& key, double unit);
-/// A rotation vector in degrees, as rad; zero where the key is absent.
+/// Reads a rotation vector in degrees and returns it in rad. Zero if the key is absent.
 Vector3 read_turn(ConfigReader& in, const std::string& key);
 
-/// One of both.
+/// Mass of a body: given directly, or by a density.
 struct BodyMass {
   std::optional<double> mass_kg = std::nullopt;
   double density_kg_m3 = 0.0;
 
-  /// Of a solid of this volume.
+  /// Returns the mass of a solid of this volume, kg.
   double mass_of(double volume_m3) const { return mass_kg ? *mass_kg : density_kg_m3 * volume_m3; }
+  /// Returns the density of a solid of this volume, kg/m³.
   double density_of(double volume_m3) const { return mass_kg ? *mass_kg / volume_m3 : density_kg_m3; }
 };
-/// `mass_g` or `density_kg_m3`.
+/// Reads `mass_g` or `density_kg_m3`.
 BodyMass read_body_mass(ConfigReader& in);
 
 }  // namespace tacipc

@@ -30,7 +30,7 @@ constexpr std::array<std::pair<FrameFile, const char*>, 14> kNames{{{linear, "li
 const std::vector<std::string> kUsual{"tactile",  "marker",  "indentation", "depth",  "normal",
                                       "traction", "contact", "stick_slip",  "segment"};
 
-/// Name of a map in configurations; empty of files that no dataset can choose.
+/// Returns the name of a map in configurations; empty for files that cannot be selected.
 std::string map_name(FrameFile file) {
   const auto found = std::find_if(kNames.begin(), kNames.end(), [&](const auto& named) { return named.first == file; });
   return found == kNames.end() ? "" : found->second;
@@ -47,7 +47,7 @@ DatasetMaps DatasetMaps::read(ConfigReader& in) {
   DatasetMaps maps;
   for (const auto& [file, name] : kNames)
     if (std::find(chosen.begin(), chosen.end(), name) != chosen.end()) maps.files.push_back(file);
-  // Which frames were rendered is known by it.
+  // The presence of this file shows which frames were rendered.
   if (!maps.has(tactile)) in.fault("maps", "tactile must be among them");
   return maps;
 }

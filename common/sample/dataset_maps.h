@@ -1,5 +1,5 @@
-// Which images of a frame a dataset wants: `maps` of its configuration, passed on by `plan` in maps.yaml, obeyed by
-// `render`. The only place that knows their names.
+// The images that a dataset stores for each frame: key `maps` of the dataset's configuration. `plan` writes it to
+// maps.yaml, `render` reads it. The only unit that names the key and the file.
 #pragma once
 
 #include <string>
@@ -10,13 +10,16 @@
 
 namespace tacipc {
 
+/// Selection of images per frame.
 struct DatasetMaps {
-  std::vector<FrameFile> files = {};  // in the order of the enum
+  std::vector<FrameFile> files = {};  // ordered as the enum
 
+  /// Returns whether the selection holds this image.
   bool has(FrameFile file) const;
-  /// The key `maps`; without it what `pack` stores, and traction. The tactile image must be among them.
+  /// Reads the key `maps`. Without it: the images that `pack` stores, and traction.
+  /// \throw ConfigError if the tactile image is missing
   static DatasetMaps read(ConfigReader& in);
-  /// The same as a file.
+  /// Returns the selection as the text of maps.yaml.
   std::string yaml() const;
 };
 

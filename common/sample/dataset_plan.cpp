@@ -26,7 +26,7 @@ constexpr PlanColumn kColumns[] = {
     {"folder", &PlannedRow::folder, "folder, relative to the dataset's"},
 };
 
-constexpr std::size_t kLongestName = 200;     // bytes: of a file whose name has an id in it, too
+constexpr std::size_t kLongestName = 200;     // bytes, including for file names that contain an id
 constexpr std::size_t kLongestFolder = 1000;  // bytes
 
 bool has_control(const std::string& text) {

@@ -15,12 +15,13 @@ namespace tacipc {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kFilmGap = 4;                // between panels, pixels of the picture
+constexpr int kFilmGap = 4;                // gap between panels, pixels of the picture
 constexpr std::uint8_t kFilmGapGrey = 24;  // grey of the gaps
 constexpr double kShortest_s = 0.08, kWithoutTimes_s = 0.1;
 constexpr int kMostShrinking = 64;
 
-/// \throw DataError unless every frame of that press is rendered in it
+/// Checks that every frame of the press run is rendered.
+/// \throw DataError otherwise
 void require_all(const FilmedGel& gel, std::size_t frames) {
   const fs::path path = gel.render / "render.yaml";
   if (!fs::is_regular_file(path))

@@ -1,4 +1,4 @@
-// The front face in the frames of a press, as `press` leaves it.
+// Reads the deformed front face of a gel from a press folder.
 #pragma once
 
 #include <filesystem>
@@ -8,14 +8,15 @@
 
 namespace tacipc {
 
+/// Front face in every frame.
 struct FrontFrames {
-  Triangles triangles;                   // outward, over the rows of a frame
+  Triangles triangles;                   // indices into the rows of a frame, oriented outward
   std::vector<Positions> frames;         // front vertices, m
-  std::vector<Matrix4> gel_from_object;  // per frame
+  std::vector<Matrix4> gel_from_object;  // one per frame
 };
 
-/// Reads positions and poses of a finished press and the front of its gel. \throw DataError as PressFolder, and if the
-/// press is of another gel.
+/// Reads positions and poses of a finished press run and the front of its gel.
+/// \throw DataError as PressFolder, or if the run belongs to another gel
 FrontFrames read_front_frames(const std::filesystem::path& press, const std::filesystem::path& gel);
 
 }  // namespace tacipc

@@ -14,7 +14,7 @@ namespace tacipc {
 namespace {
 
 constexpr int kMaxSteps = 100000;
-/// What a motion may ask for. A press adds what comes before, a grasp its own.
+/// Kinds that a motion file may contain. Press and grasp runs add phases of their own.
 const std::vector<std::string> kKinds(kPhaseNames.begin() + static_cast<int>(PhaseKind::press),
                                       kPhaseNames.begin() + static_cast<int>(PhaseKind::free) + 1);
 
@@ -26,7 +26,7 @@ Matrix4 shifted(const Matrix4& pose, const Vector3& shift) {
   return out;
 }
 
-/// Turned about a point of S.
+/// Rotates a pose about a point of S.
 Matrix4 turned(const Matrix4& pose, const Matrix3& rotation, const Vector3& about) {
   Matrix4 out = pose;
   out.topLeftCorner<3, 3>() = rotation * pose.topLeftCorner<3, 3>();
@@ -34,7 +34,7 @@ Matrix4 turned(const Matrix4& pose, const Matrix3& rotation, const Vector3& abou
   return out;
 }
 
-/// The load a phase ends with, and the axes it frees; what it does not say it takes over from the phase before.
+/// Sets the load at the end of a phase, and the free axes. Unstated values are those of the previous phase.
 void yielding(const Phase& phase, const PhaseStart& start, double part, Goal& goal) {
   goal.free = start.free;
   goal.load_n = start.load_n;
@@ -42,7 +42,7 @@ void yielding(const Phase& phase, const PhaseStart& start, double part, Goal& go
     case PhaseKind::release: goal.free = {}; break;
     case PhaseKind::press: goal.free = {false, false, phase.load_n.has_value()}; break;
     case PhaseKind::load: goal.free = phase.free; break;
-    case PhaseKind::free:  // the force is not that of an axis, and not gradual: what is let go is let go at once
+    case PhaseKind::free:  // no axis is driven, and the force is not gradual: the object is released at once
       goal.free = {};
       goal.load_n = *phase.load_n;
       return;

@@ -14,7 +14,7 @@ WrapConfig read_wrap(ConfigReader in, bool fit_window) {
       in.optional_number("relative_alpha", Range::between(WrapConfig::kFinest, WrapConfig::kCoarsest));
   const auto offset_mm = in.optional_number("offset_mm", Range::positive());
   if (alpha_mm && relative) in.fault("alpha_mm", "say it or relative_alpha");
-  // What a millimetre of the mesh will be is known only after it is wrapped.
+  // The size of a millimetre in the mesh is known only after wrapping.
   for (const char* key : {"alpha_mm", "offset_mm"})
     if (fit_window && in.has(key)) in.fault(key, "scale: fit takes no lengths; leave it out");
   if (alpha_mm) wrap.alpha_m = 1e-3 * *alpha_mm;

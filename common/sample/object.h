@@ -1,4 +1,4 @@
-// An object as one file: the unit of its mesh, its scale, which side is up, and how it is mended.
+// The YAML file of an object: unit of its mesh, scale, side that faces away from the gel, and repairs.
 #pragma once
 
 #include <optional>
@@ -9,37 +9,38 @@
 
 namespace tacipc {
 
-/// What one side of a mesh shows, as a solid.
+/// Conversion of an object to a height field: the solid below the surface that one side of the mesh shows.
 struct SideConfig {
   static constexpr const char* kMostRelief = "most_relief";
-  std::string side = "-z";  // that presses: +x -x +y -y +z -z of the mesh, or kMostRelief
-  double spacing_m = 5e-5;  // of the grid
+  std::string side = "-z";  // side that presses: +x -x +y -y +z -z of the mesh, or kMostRelief
+  double spacing_m = 5e-5;  // grid spacing
 };
 
-/// How the stage `wrap` makes a closed surface around any other.
+/// Settings of the stage `wrap`, which makes a closed surface around any other.
 struct WrapConfig {
-  // Alpha over the box's diagonal. Time and memory grow as (diagonal / alpha)²: the finest takes minutes and gigabytes.
-  // The coarsest leaves no shape.
+  // Range of alpha over the box's diagonal. Time and memory grow as (diagonal / alpha)²: the smallest value takes
+  // minutes and gigabytes; the largest leaves no shape.
   static constexpr double kFinest = 5e-4, kCoarsest = 0.5;
-  double relative_alpha = 0.004;                  // of the box's diagonal: alpha, unless there is
-  std::optional<double> alpha_m = std::nullopt;   // radius of the ball that fits into what stays open
-  std::optional<double> offset_m = std::nullopt;  // distance kept from the surface; else a fraction of alpha
+  double relative_alpha = 0.004;                  // alpha over the diagonal of the object's box
+  std::optional<double> alpha_m = std::nullopt;   // replaces it: radius of the smallest openings that stay open
+  std::optional<double> offset_m = std::nullopt;  // distance kept from the surface; absent: a fraction of alpha
 };
 
-/// configs/objects/*.yaml
+/// Contents of configs/objects/*.yaml.
 struct ObjectSpec {
-  static constexpr const char* kAutoUnit = "auto";  // what the file, else its name, else millimetres say
+  static constexpr const char* kAutoUnit = "auto";  // unit stated by the file, else by its name, else mm
 
-  std::string unit;               // of the mesh file: m, cm, mm, um, in or auto
-  std::optional<std::string> up;  // side of the mesh that looks away from the gel: +x -x +y -y +z -z
-  double scale = 1.0;             // of the mesh, after its unit
-  bool fit_window = false;        // `scale: fit`: to the sensor's window
-  std::optional<double> sheet_thickness_m = std::nullopt;  // of plates made of what is open
-  std::optional<WrapConfig> wrap = std::nullopt;           // before decimate, by the stage wrap
-  std::optional<SideConfig> height_field = std::nullopt;   // of what no repair closes
+  std::string unit;               // unit of the mesh file: m, cm, mm, um, in or auto
+  std::optional<std::string> up;  // side of the mesh that faces away from the gel: +x -x +y -y +z -z
+  double scale = 1.0;             // scale factor of the mesh, after its unit
+  bool fit_window = false;        // `scale: fit`: fit the object to the sensor's field of view
+  std::optional<double> sheet_thickness_m = std::nullopt;  // thickness of plates made from open surfaces
+  std::optional<WrapConfig> wrap = std::nullopt;           // applied before `decimate`, by the stage `wrap`
+  std::optional<SideConfig> height_field = std::nullopt;   // settings for meshes that no repair closes
 
+  /// Reads the file.
   static ObjectSpec read(ConfigReader& in);
-  /// As a file that `read` takes; without keys that have their defaults.
+  /// Returns the text of a file that read() accepts, without keys at their defaults.
   std::string yaml() const;
 };
 

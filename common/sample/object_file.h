@@ -1,4 +1,4 @@
-// An object's mesh file, in metres: which unit its numbers have.
+// Reads an object's mesh file in metres, and determines the unit of its numbers.
 #pragma once
 
 #include <filesystem>
@@ -10,18 +10,20 @@
 
 namespace tacipc {
 
+/// A mesh and the unit of its file.
 struct ObjectFile {
   TriangleMesh mesh;
-  std::string unit;       // of the file's numbers: m, cm, mm, um, in, or ft
-  std::string unit_from;  // "object file", "mesh format", "file name" or "default"
+  std::string unit;       // unit of the file's numbers: m, cm, mm, um, in, or ft
+  std::string unit_from;  // source of the unit: "object file", "mesh format", "file name" or "default"
 };
 
-/// The unit that a file's name states as its last word: `part_mm.stl`, `Part-inches.obj`, `part cm.ply`. Single letters
-/// and "in" are words of too many names.
+/// Returns the unit that ends a file name as its last word: `part_mm.stl`, `Part-inches.obj`, `part cm.ply`. Single
+/// letters and "in" are not recognised, because they end too many other names.
 std::optional<std::string> unit_in_name(const std::filesystem::path& path);
 
-/// Reads a mesh in metres, scaled by `spec.scale`: what read_triangle_mesh reads, and glTF and 3MF, whose formats state
-/// their unit. \throw DataError as read_triangle_mesh.
+/// Reads a mesh in metres, scaled by `spec.scale`. Accepts the formats of read_triangle_mesh(), and glTF and 3MF, whose
+/// files state their unit.
+/// \throw DataError as read_triangle_mesh()
 ObjectFile read_object_file(const std::filesystem::path& path, const ObjectSpec& spec);
 
 }  // namespace tacipc

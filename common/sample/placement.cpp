@@ -8,7 +8,7 @@
 namespace tacipc {
 namespace {
 
-/// Rotation that turns a named face towards −z, by whole quarter turns so that its entries are exact.
+/// Returns the rotation of a named face towards −z, by whole quarter turns so that its entries are exact.
 Matrix3 face_down(const std::string& face) {
   Matrix3 rotation;
   if (face == "-z") {

@@ -1,4 +1,4 @@
-// Poses of rigid objects outside a press folder: where a stage found or put them.
+// Poses of rigid objects outside a press folder, as stages estimated or set them.
 #pragma once
 
 #include <filesystem>
@@ -10,16 +10,16 @@
 
 namespace tacipc {
 
-/// Of shade: per image.
+/// Returns the declaration of the poses that `shade` writes, one per image.
 const NpyField& image_poses_field();
-/// Of calibrate: per ball.
+/// Returns the declaration of the poses that `calibrate` writes, one per ball.
 const NpyField& ball_poses_field();
 
-/// As an output of a stage, under the field's name.
+/// Writes poses as an output of a stage, under the field's name.
 void write_poses(Stage& stage, const NpyField& field, const std::vector<Matrix4>& gel_from_object);
 
-/// One pose (4, 4) or several (n, 4, 4), of these files or of a press folder. \throw DataError if there is none, or one
-/// is not a rigid motion
+/// Reads one pose (4, 4) or several (n, 4, 4), from these files or a press folder's.
+/// \throw DataError if there is no pose, or one is not a rigid motion
 std::vector<Matrix4> read_poses(const std::filesystem::path& path);
 
 }  // namespace tacipc

@@ -13,7 +13,7 @@ namespace {
 
 using enum NpyType;
 
-/// "0 reference, 1 approach, …"
+/// Returns "0 reference, 1 approach, …".
 template <typename Names>
 std::string code_list(const Names& names) {
   std::string text;
@@ -105,7 +105,7 @@ Positions rows_of(const std::vector<double>& values) {
   return Eigen::Map<const Positions>(values.data(), static_cast<Eigen::Index>(values.size() / 3), 3);
 }
 
-/// The two vectors of every row, as ContactParts or MarkerDisplacement.
+/// Reads the two vectors of every row, as ContactParts or MarkerDisplacement.
 template <typename Pair>
 Pair pair_of(const std::vector<double>& values) {
   const auto count = static_cast<Eigen::Index>(values.size() / 6);
@@ -113,7 +113,8 @@ Pair pair_of(const std::vector<double>& values) {
   return {both.leftCols<3>(), both.rightCols<3>()};
 }
 
-/// The codes as the enum of which `names` are the words. `first`: index of the first value in the file.
+/// Converts codes to the enum with these names.
+/// \param first index of the first value in the file
 template <typename Code, typename Names>
 std::vector<Code> codes_of(const std::vector<double>& values, const Names& names, const fs::path& path,
                            std::size_t first = 0) {

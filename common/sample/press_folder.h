@@ -1,5 +1,5 @@
-// The press folder: what happened to the gel, frame by frame. The only place that knows its arrays. `press` writes all
-// of them, `mpm` some, as any other simulator may.
+// The press folder: state of the gel in every frame. The only unit that declares its arrays. `press` writes all of
+// them; `mpm`, like any other simulator, may write some.
 #pragma once
 
 #include <filesystem>
@@ -16,6 +16,7 @@
 
 namespace tacipc {
 
+/// Arrays of a press folder; field_of() gives file, shape, unit and meaning.
 enum class PressArray {
   positions,
   object_pose,
@@ -36,19 +37,20 @@ enum class PressArray {
   front_shear
 };
 
-/// Symbols of shapes.
+/// Symbols in array shapes.
 inline constexpr std::string_view kVertices = "#V", kFrontVertices = "#V_front", kMarkers = "#M", kTets = "#T";
-/// Cells of traction.npy.
+/// Number of cells of traction.npy.
 inline constexpr int kTractionRows = 24, kTractionColumns = 32;
 
-/// Every array, in the order of the enum: the table that docs/files.md shows.
+/// Returns the declarations of all arrays in the order of the enum: the table of docs/files.md.
 std::span<const NpyField> press_fields();
+/// Returns the declaration of an array.
 const NpyField& field_of(PressArray array);
 
-/// Beside the arrays: row, column, triangle and weights of each marker, as `markers_csv` writes them.
+/// File next to the arrays: row, column, triangle and weights of each marker, as markers_csv() writes them.
 inline constexpr const char* kMarkersCsv = "markers.csv";
 
-/// The two parts of a contact force (N) or of a traction (Pa), one row per vertex or cell.
+/// Normal and friction part of a contact force (N) or traction (Pa), one row per vertex or cell.
 struct ContactParts {
   Positions normal, friction;
 };
@@ -58,46 +60,54 @@ inline void append_numbers(std::vector<double>& all, const ContactParts& parts) 
     append_numbers(all, parts.normal.row(i)), append_numbers(all, parts.friction.row(i));
 }
 
-/// Force on the gel per deformed area at each front vertex, Pa: t = −p n + s with the outward normal n.
+/// Force on the gel per deformed area at each front vertex, Pa: t = −p n + s, with the outward normal n.
 struct FrontTraction {
-  Eigen::VectorXd pressure;  // p, > 0 where something pushes
-  Positions shear;           // s, along the front
+  Eigen::VectorXd pressure;  // p, positive in compression
+  Positions shear;           // s, tangential to the front
 };
 
-/// Of every marker, m.
+/// Displacement of every marker, m.
 struct MarkerDisplacement {
+  // since frame 0, and since the end of the first press phase
   Positions since_rest, since_press;
 };
 
-/// Reads a press folder as ArrayFolder does. Readers also throw DataError if a code has no meaning.
+/// Reads a press folder as ArrayFolder does.
+/// \throw DataError also if a code has no meaning
 class PressFolder {
  public:
+  /// Opens a folder, finished or not.
   explicit PressFolder(std::filesystem::path folder, Extents known = {})
       : PressFolder(ArrayFolder(std::move(folder), "press", std::move(known))) {}
+  /// Opens the folder of a finished run.
+  /// \throw DataError if the run did not finish
   static PressFolder finished(std::filesystem::path folder, Extents known = {}) {
     return PressFolder(ArrayFolder::finished(std::move(folder), "press", std::move(known)));
   }
 
   const std::filesystem::path& folder() const { return arrays_.folder(); }
+  /// Returns the path of an array's file.
   std::filesystem::path path(PressArray array) const { return arrays_.path(field_of(array)); }
+  /// Returns whether the array's file exists.
   bool has(PressArray array) const { return arrays_.has(field_of(array)); }
-  /// Checks shapes before long work: every one of these must be there. Reads no values.
+  /// Checks that these arrays exist with valid shapes, before long work starts. Reads no values.
   void require(std::initializer_list<PressArray> arrays) const;
-  /// Length that a symbol of this array's shape stands for.
+  /// Returns the extent of a symbol in this array's shape.
   std::size_t extent(PressArray array, std::string_view symbol) const {
     return arrays_.extent(field_of(array), symbol);
   }
-  /// \throw DataError if front_vertices.npy lists others than these
+  /// Checks the front's vertices.
+  /// \throw DataError if front_vertices.npy lists other vertices
   void require_front(const std::vector<int>& vertices) const;
 
   std::vector<double> times() const;             // s
   std::vector<PhaseKind> phases() const;         // per frame
   std::vector<Matrix4> poses() const;            // gel_from_object, m, per frame
-  std::vector<Matrix4> holder_poses() const;     // the same on a rigid mount
-  std::vector<Wrench> wrenches() const;          // on the gel, about the origin of S, per frame
-  std::vector<Twist> twists() const;             // of the object's centre of mass, along the axes of S, per frame
-  std::vector<int> front_vertices() const;       // rows of positions; \throw DataError if one is none of these
-  std::vector<double> first_slips() const;       // s, +∞ where a front vertex never slips
+  std::vector<Matrix4> holder_poses() const;     // poses if the mount were rigid, gel_from_object, m, per frame
+  std::vector<Wrench> wrenches() const;          // total wrench on the gel about the origin of S, per frame
+  std::vector<Twist> twists() const;             // twist at the object's centre of mass, axes of S, per frame
+  std::vector<int> front_vertices() const;       // rows of positions; \throw DataError if an index is out of range
+  std::vector<double> first_slips() const;       // s, one per front vertex; +∞ if it never slips
   Positions positions(std::size_t frame) const;  // #V × 3, m
   ContactParts contact_forces(std::size_t frame) const;               // #V_front rows, N
   std::vector<ContactState> contact_states(std::size_t frame) const;  // #V_front

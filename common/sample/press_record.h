@@ -1,5 +1,5 @@
-// The record of `press`: summary and lines per frame of a press, a grasp and a scene. The only place that knows its
-// keys. Names give units; lengths in the world of a grasp or scene, others in S.
+// The record of `press`: summary and per-frame lines of a press, grasp or scene run. The only unit that names its keys.
+// A key's suffix gives its unit. Lengths of a grasp or scene are in the world, others in S.
 #pragma once
 
 #include <array>
@@ -13,21 +13,21 @@
 
 namespace tacipc {
 
-/// Limits that every frame has kept; docs/verdict.md has the reason for each.
+/// Limits that every frame satisfies; docs/verdict.md gives the reason for each.
 struct PressLimits {
-  double smallest_distance_m = 0.0;  // between gel and object, must be exceeded
-  int intersections = 0;             // pairs of triangles that share a point, decided exactly
+  double smallest_distance_m = 0.0;  // least distance between gel and object; must be exceeded
+  int intersections = 0;             // pairs of triangles that share a point, by an exact test
   double gel_in_object = 0.0;        // winding number of the object's surface around the gel
-  int inverted_tets = 0;             // tetrahedra whose exact volume is not positive
-  double volume_ratio = 0.0;         // smallest deformed over undeformed volume, must be exceeded
-  double balance_relative = 0.0;     // of the contact force, taken as at least smallest_contact_n
+  int inverted_tets = 0;             // tetrahedra whose volume is not positive, by an exact test
+  double volume_ratio = 0.0;         // smallest deformed over undeformed volume; must be exceeded
+  double balance_relative = 0.0;     // force residual over contact force, which counts as smallest_contact_n at least
   double smallest_contact_n = 0.0;
-  double pose_error_m = 0.0;           // of the object's vertices from their prescribed positions
-  double body_strain = 0.0;            // of a free object: max |AᵀA − I|
+  double pose_error_m = 0.0;           // largest distance of an object vertex from its prescribed position
+  double body_strain = 0.0;            // strain of a free object: max |AᵀA − I|
   double body_balance_relative = 0.0;  // residual of its momentum balance over its weight or load, whichever is larger
-  double body_torque_relative = 0.0;   // residual of its angular momentum balance over that load on an arm
-  double body_torque_arm_m = 0.0;      // length of this arm
-  double smallest_body_load_n = 0.0;   // lower bound of that weight or load
+  double body_torque_relative = 0.0;   // residual of its angular momentum balance over that load times the arm
+  double body_torque_arm_m = 0.0;      // length of the arm
+  double smallest_body_load_n = 0.0;   // lower bound of the weight or load
 
   static constexpr auto keys() {
     using Lines = PressLimits;
@@ -43,18 +43,19 @@ struct PressLimits {
 struct PressFrameLines {
   double time_s = 0.0;
   std::string phase = {};
-  double press_force_n = 0.0, tangential_force_n = 0.0;  // of the object on the gel: against z, and across it
+  double press_force_n = 0.0, tangential_force_n = 0.0;  // forces of the object on the gel: against z, and across z
   double balance_n = 0.0, balance_relative = 0.0, inertia_n = 0.0, mount_force_n = 0.0;
   double contact_area_mm2 = 0.0, mean_pressure_pa = 0.0, peak_pressure_pa = 0.0;
-  int sticking = 0, slipping = 0;  // front vertices
+  int sticking = 0, slipping = 0;  // numbers of front vertices
   int substeps = 0, newton_iterations = 0, patch_iterations = 0, lag_iterations = 0, exact_hessian_waits = 0;
   double approximated_share = 0.0;
   double friction_residual_n = 0.0, velocity_residual_m_s = 0.0, force_residual_n = 0.0, barrier_stiffness = 0.0;
-  std::optional<double> min_gap_m = {};  // absent where nothing is near
+  std::optional<double> min_gap_m = {};  // absent if nothing is near
   double stand_off_m = 0.0, min_volume_ratio = 0.0;
   int intersections = 0, inverted_tets = 0;
   double gel_in_object = 0.0, pose_error_m = 0.0;
-  std::optional<double> body_strain = {}, body_load_n = {}, body_residual_n = {}, body_residual_n_m = {};  // if free
+  // only for a free object
+  std::optional<double> body_strain = {}, body_load_n = {}, body_residual_n = {}, body_residual_n_m = {};
 
   static constexpr auto keys() {
     using Lines = PressFrameLines;
@@ -72,6 +73,7 @@ struct PressFrameLines {
 };
 
 /// Summary of a press, of one finger of a grasp, or of one gel of a scene.
+/// Counts and extremes are over all frames unless noted.
 struct PressSummary {
   std::size_t frames = 0, gel_vertices = 0;
   std::optional<std::string> face = {};  // side of the object that presses
@@ -79,9 +81,9 @@ struct PressSummary {
   std::string element = {};
   double friction_coefficient = 0.0;
   int newton_iterations = 0;
-  double press_force_n = 0.0, tangential_force_n = 0.0;  // in the last frame
-  int contact_frames = 0;                                // in which anything touches the gel
-  std::optional<double> min_distance_m = {};             // absent where nothing was ever near
+  double press_force_n = 0.0, tangential_force_n = 0.0;  // forces in the last frame
+  int contact_frames = 0;                                // number of frames in which anything touches the gel
+  std::optional<double> min_distance_m = {};             // absent if nothing was ever near
   double stand_off_m = 0.0, min_volume_ratio = 0.0;
   int intersections = 0, inverted_tets = 0;
   double max_balance_relative = 0.0, max_pose_error_m = 0.0;
@@ -109,9 +111,10 @@ struct PressSummary {
 
 /// Pose of the gripped object.
 struct HeldPoseLines {
-  std::array<double, 4> rotation_xyzw{};  // of world_from_object
-  Vector3 grip_m = Vector3::Zero();       // from the centre of mass, in the object's axes
-  double lever_m = 0.0;                   // of the centre of mass about the line of the grip
+  std::array<double, 4> rotation_xyzw{};  // rotation of world_from_object
+  Vector3 grip_m = Vector3::Zero();       // grip point relative to the centre of mass, in the object's axes
+  double lever_m = 0.0;                   // distance of the centre of mass from the grip line
+  // distance of the contact points and width of the patch; only for a drawn grasp
   std::optional<double> width_m = {}, patch_m = {};
 
   static constexpr auto keys() {
@@ -136,11 +139,11 @@ struct GraspFrameLines {
   double time_s = 0.0;
   std::string phase = {};
   double grip_left_n = 0.0, grip_right_n = 0.0, carried_n = 0.0, height_m = 0.0, hand_height_m = 0.0;
-  double slip_m = 0.0, turn_rad = 0.0;  // of the object in the hand
+  double slip_m = 0.0, turn_rad = 0.0;  // motion of the object in the hand
   double slip_share_left = 0.0, slip_share_right = 0.0, friction_radius_left_m = 0.0, friction_radius_right_m = 0.0;
   double body_strain = 0.0, body_load_n = 0.0, body_residual_n = 0.0;
   double momentum_residual_n = 0.0, angular_residual_n_m = 0.0;
-  double grip_imbalance = 0.0;  // largest fraction of the force missing to the balance of a drive after a time step
+  double grip_imbalance = 0.0;  // largest imbalance of a drive after a time step, as a fraction of its force
   std::optional<double> friction_use = {};
 
   static constexpr auto keys() {
@@ -158,19 +161,19 @@ struct GraspFrameLines {
 struct GraspSummary {
   std::size_t frames = 0;
   std::string outcome = {};
-  std::optional<std::string> reason = {};  // unless lifted
+  std::optional<std::string> reason = {};  // absent if lifted
   std::size_t freed_frame = 0, judged_frame = 0;
   double object_mass_kg = 0.0, friction_coefficient = 0.0;
   Vector3 gravity_m_s2 = Vector3::Zero();
-  Vector3 center_of_mass_m = Vector3::Zero(), center_of_mass_shift_m = Vector3::Zero();  // in the object's axes
+  Vector3 center_of_mass_m = Vector3::Zero(), center_of_mass_shift_m = Vector3::Zero();  // object's axes
   HeldPoseLines pose = {};
   double grip_n = 0.0;
-  double slip_m = 0.0, turn_rad = 0.0, creep_m = 0.0, creep_rad = 0.0;  // in the judged frame; these are part of those
-  double rise_m = 0.0, hand_rise_m = 0.0;                               // there, too
+  double slip_m = 0.0, turn_rad = 0.0, creep_m = 0.0, creep_rad = 0.0;  // judged frame; slip and turn include creep
+  double rise_m = 0.0, hand_rise_m = 0.0;                               // values in the judged frame
   double slip_speed_m_s = 0.0;                                          // ε_v: slower contacts stick, and creep
   double max_momentum_residual_n = 0.0;
   std::optional<SlipLines> slip_left = {}, slip_right = {};
-  std::optional<double> friction_margin = {};  // friction force of both fingers at most over the weight
+  std::optional<double> friction_margin = {};  // largest friction force of both fingers over the weight
   bool converged = false;
   std::string verdict = {};
   std::vector<GraspFrameLines> per_frame = {};
@@ -188,7 +191,7 @@ struct GraspSummary {
   }
 };
 
-/// Contact of two bodies of a scene that its file names.
+/// Contact settings of two bodies that a scene file names.
 struct ContactLines {
   std::array<std::string, 2> between{};
   double friction = 0.0, d_hat_m = 0.0;
@@ -210,13 +213,13 @@ struct SceneBodyLines {
   }
 };
 
-/// A rigid body that the gels of a scene hold; common/sample/scene_hold.h.
+/// A rigid body that the gels of a scene hold; see common/sample/scene_hold.h.
 struct HeldBodyLines {
   std::string body = {};
   std::optional<std::string> outcome = {};
   std::size_t freed_frame = 0;
   double slip_m = 0.0, turn_rad = 0.0;
-  std::optional<double> creep_m = {}, creep_rad = {};  // part of these two
+  std::optional<double> creep_m = {}, creep_rad = {};  // part of slip_m and turn_rad
   double rise_m = 0.0, hand_rise_m = 0.0;
 
   static constexpr auto keys() {
@@ -230,10 +233,10 @@ struct HeldBodyLines {
 /// One frame of a scene.
 struct SceneFrameLines {
   double time_s = 0.0;
-  int phase = 0;  // of the motion, from 0; −1 in frame 0
+  int phase = 0;  // index of the phase, from 0; −1 in frame 0
   int time_steps = 0, newton_iterations = 0;
   double velocity_residual_m_s = 0.0, force_residual_n = 0.0, body_residual_n = 0.0, body_load_n = 0.0;
-  std::optional<double> min_gap_m = {};  // absent where no two bodies are near
+  std::optional<double> min_gap_m = {};  // absent if no two bodies are near
   int intersections = 0;
 
   static constexpr auto keys() {
@@ -247,10 +250,10 @@ struct SceneFrameLines {
 /// Summary of a scene.
 struct SceneSummary {
   std::size_t frames = 0;
-  std::vector<SceneBodyLines> bodies = {};  // in the order of the arrays
+  std::vector<SceneBodyLines> bodies = {};  // ordered as the arrays
   std::vector<ContactLines> contact = {};
-  std::vector<std::string> untouched_gels = {};  // those that nothing ever touches
-  std::optional<double> min_distance_m = {};     // absent where no two bodies were ever near
+  std::vector<std::string> untouched_gels = {};  // gels that nothing ever touches
+  std::optional<double> min_distance_m = {};     // absent if no two bodies were ever near
   int intersections = 0;
   double body_strain = 0.0, max_body_balance_relative = 0.0, max_momentum_residual_n = 0.0;
   std::vector<HeldBodyLines> held = {};
@@ -267,7 +270,7 @@ struct SceneSummary {
   }
 };
 
-/// Verdict of a record whose every frame has passed: no other is written.
+/// Verdict of a record whose frames all passed. Records with another verdict are not written.
 inline constexpr const char* kPassed = "pass";
 
 }  // namespace tacipc

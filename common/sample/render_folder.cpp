@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kFrameBegin = "frame_";
-/// Slopes of a height map by differences of pixels 23 µm apart stay right to 0.1 %: 0.03 µm. Normals to 0.014°, 16 Pa.
-/// Traction exceeds what a half holds.
+/// Rounding in datasets: 0.03 µm of lengths keeps slopes of a height map, by differences of pixels 23 µm apart, right
+/// to 0.1 %. Normals are rounded to 0.014°, traction to 16 Pa. Traction exceeds the range of a half.
 constexpr DatasetNumbers kLength{.step_exponent = -25}, kTraction{.step_exponent = 4},
     kDirection{.step_exponent = -12, .type = ExrNumbers::halves};
 
@@ -30,7 +30,7 @@ std::string codes_text(const Names& names, int step) {
 }
 
 const std::array<ImageField, 16>& all_images() {
-  // Names of EXR channels that OpenCV reads: one Y, or R G B. Of others it makes zeros, or one channel, without a word.
+  // Names of EXR channels that OpenCV reads: one Y, or R G B. It silently reads others as zeros, or as one channel.
   static const std::vector<std::string> kRgb{"R", "G", "B"}, kGrey{"grey"};
   static const std::array<ImageField, 16> kFields{{
       {"linear.exr", kRgb, "relative", "radiance before noise transfer, linear sRGB primaries"},
@@ -68,7 +68,7 @@ const std::array<ImageField, 16>& all_images() {
   return kFields;
 }
 
-/// Which multiple of `step` a code is, below `count`.
+/// Returns which multiple of `step`, below `count`, a code is.
 int multiple_of(double code, int step, std::size_t count, FrameFile file) {
   const int k = static_cast<int>(code) / step;
   if (static_cast<double>(k * step) != code || k < 0 || static_cast<std::size_t>(k) >= count)

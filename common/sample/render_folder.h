@@ -1,5 +1,5 @@
-// The render folder: what the camera sees, one folder per frame. The only place that knows its names and codes.
-// `render` writes all of it; `mpm` and `baseline` write some of the same files.
+// The render folder: images of the camera, one folder per frame. The only unit that declares its names and codes.
+// `render` writes all files; `mpm` and `baseline` write some of them.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +19,7 @@
 
 namespace tacipc {
 
+/// Images of a frame; field_of() gives file, channels, unit and meaning.
 enum class FrameFile {
   linear,
   basis,
@@ -38,18 +39,19 @@ enum class FrameFile {
   indentation_picture
 };
 
-/// What a dataset stores of an EXR's numbers. Rounded ones take a third of the room and time.
+/// Precision with which a dataset stores an EXR's numbers. Rounded numbers take a third of the space and time.
 struct DatasetNumbers {
-  int step_exponent = kExact;  // multiples of 2^this, in the unit of the field
+  int step_exponent = kExact;  // numbers are multiples of 2^step_exponent, in the unit of the field
   ExrNumbers type = ExrNumbers::floats;
 
   static constexpr int kExact = -1000;
   bool rounded() const { return step_exponent != kExact; }
 };
 
+/// Declaration of an image.
 struct ImageField {
-  std::string file;                   // in the folder of a frame; `{:02}` stands for a number
-  std::vector<std::string> channels;  // EXR: float; PNG: 8 bit, one or three
+  std::string file;                   // name in the folder of a frame; `{:02}` stands for a number
+  std::vector<std::string> channels;  // EXR: float; PNG: 8 bit, one or three channels
   std::string unit;
   std::string meaning;
   DatasetNumbers in_dataset = {};
@@ -57,40 +59,46 @@ struct ImageField {
   bool is_float() const { return file.ends_with(".exr"); }
 };
 
-/// Every image, in the order of the enum: the table that docs/files.md shows.
+/// Returns the declarations of all images in the order of the enum: the table of docs/files.md.
 std::span<const ImageField> frame_fields();
+/// Returns the declaration of an image.
 const ImageField& field_of(FrameFile file);
-/// (#M, 2): column and row of each marker; NaN where the image does not show it.
+/// Returns the declaration of the markers' positions, (#M, 2): column and row; NaN if the image does not show the
+/// marker.
 const NpyField& marker_px_field();
 
-/// "frame_0005".
+/// Returns the name of a frame's folder: "frame_0005".
 std::string frame_name(std::size_t frame);
-/// "frame_0005/", with a variant "frame_0005/red/".
+/// Returns a frame's folder with a slash: "frame_0005/", or with a variant "frame_0005/red/".
 std::string frame_folder(std::size_t frame, const std::string& variant = {});
-/// 5 of "frame_0005"; nothing of other names.
+/// Returns the number in a folder name: 5 for "frame_0005"; nothing for other names.
 std::optional<std::size_t> frame_number(std::string_view folder_name);
-/// Numbers of the frames that a folder has, ascending.
+/// Returns the numbers of the frames in a folder, ascending.
 std::vector<std::size_t> frames_in(const std::filesystem::path& folder);
 
-/// Where an image of a frame is.
+/// Returns the path of an image of a frame.
 std::filesystem::path frame_path(const std::filesystem::path& folder, std::size_t frame, FrameFile file);
 
+/// Precision of an EXR's numbers: all digits, or as datasets store them (ImageField::in_dataset).
 enum class Digits { all, of_datasets };
-/// Writes an image as an output of a stage. `in`: frame_folder(…); `number`: of a file that has one.
+/// Writes an image as an output of a stage.
+/// \param in frame_folder(…)
+/// \param number number in the file's name, if it has one
 void write_frame(Stage& stage, const std::string& in, FrameFile file, const FloatImage& image, std::size_t number = 0,
                  Digits digits = Digits::all);
 void write_frame(Stage& stage, const std::string& in, FrameFile file, const ByteImage& image);
 
-/// Column and row in the image.
+/// Column and row of each marker in the image.
 using MarkerPixels = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 void write_marker_px(Stage& stage, const std::string& in, const MarkerPixels& px);
 MarkerPixels read_marker_px(const std::filesystem::path& path);
 
-/// Codes of contact.png, stick_slip.png and segment.png: grey values far enough apart to be seen.
+/// Return the grey levels of contact.png, stick_slip.png and segment.png, far enough apart to differ visibly.
 std::uint8_t contact_code(ContactState state);
 std::uint8_t stick_slip_code(ContactState state);
 std::uint8_t segment_code(Segment segment);
-/// The way back. \throw DataError if no pixel has such a code
+/// Convert grey levels back.
+/// \throw DataError if the level has no meaning
 bool touches(double contact_code);
 ContactState state_of(double stick_slip_code);
 Segment segment_of(double segment_code);

@@ -1,4 +1,4 @@
-// Which frames of a press are rendered: the key `frames` of a configuration of render, for all who read it.
+// Selection of the frames of a press run that are rendered: the key `frames` of a configuration of render.
 #pragma once
 
 #include <filesystem>
@@ -9,14 +9,16 @@
 
 namespace tacipc {
 
-/// Frames that are rendered besides frame 0, the reference: the last one, the last of each phase of the motion, or all.
+/// Frames rendered in addition to frame 0: the last one, the last of each phase of the motion, or all.
 enum class RenderedFrames { last, phases, all };
-/// The key `frames` of a configuration of render; `last` if it is absent.
+/// Reads the key `frames` of a configuration of render; `last` if it is absent.
 RenderedFrames read_rendered_frames(ConfigReader& in);
-/// The same for a reader that needs no other key of the file. \throw ConfigError
+/// Reads the key `frames` of a file and ignores all others.
+/// \throw ConfigError if the value is not allowed
 RenderedFrames read_rendered_frames(const std::filesystem::path& config);
-/// Number of rendered frames of a motion, frame 0 included. \param frames of the motion after frame 0
-/// \param kinds of its phases; neighbouring phases of one kind count as one
+/// Returns the number of rendered frames of a motion, including frame 0.
+/// \param frames number of frames after frame 0
+/// \param kinds kinds of the motion's phases; neighbouring phases of one kind count as one
 int count_rendered(RenderedFrames which, int frames, const std::vector<std::string>& kinds);
 
 }  // namespace tacipc

@@ -31,7 +31,7 @@ Matrix4 motion_of_world(const Matrix4& pose, const RigidWay& by) {
 
 Matrix4 pose_on_path(std::span<const Matrix4> path, double t) {
   const double nearest = std::round(t);
-  // The end of a step is a pose of the path to the bit.
+  // At whole numbers, return the pose of the path bit by bit.
   if (std::abs(t - nearest) < 1e-9) return path[static_cast<std::size_t>(nearest)];
   const auto before = static_cast<std::size_t>(t);
   const Matrix4 &a = path[before], &b = path[before + 1];

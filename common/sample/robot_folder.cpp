@@ -119,7 +119,7 @@ RobotFolder read_robot_folder(const fs::path& folder) {
 }
 
 fs::path robot_shape(const fs::path& folder, const std::string& body) {
-  // A name of a model may hold what a file's may not.
+  // A model's names may contain characters that file names may not.
   std::string name = body;
   for (char& c : name) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && c != '-') c = '_';

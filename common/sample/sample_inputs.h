@@ -1,4 +1,4 @@
-// Inputs of every simulator of a sample: the motion, the object, and which side of it presses.
+// Reads the inputs that every simulator of a sample takes: motion, object, and the side that presses.
 #pragma once
 
 #include <string>
@@ -9,14 +9,15 @@
 
 namespace tacipc {
 
+/// Inputs of a sample.
 struct SampleInputs {
   SampleSpec sample;
-  std::string face;     // that presses where the sample does not say
+  std::string face;     // side that presses if the sample names none
   TriangleMesh object;  // m
 };
 
-/// Reads the flags --sample, --object-config (where given: its `up` says which side looks away) and --object; the files
-/// of paths become inputs of the stage.
+/// Reads the flags --sample, --object-config (if given: its `up` names the side that faces away) and --object. Files of
+/// paths become inputs of the stage.
 SampleInputs read_sample(Stage& stage);
 
 }  // namespace tacipc

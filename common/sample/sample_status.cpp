@@ -8,7 +8,7 @@ namespace tacipc {
 namespace fs = std::filesystem;
 namespace {
 
-/// Whether somebody holds the lock that a sample's make takes.
+/// Returns whether another process holds the lock of a sample's make.
 bool is_locked(const fs::path& lock) {
   const int file = ::open(lock.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return false;
@@ -26,7 +26,7 @@ const char* status_word(SampleStatus status) {
 
 bool is_finger(const fs::path& sample_folder) {
   if (sample_folder.filename() != "left" && sample_folder.filename() != "right") return false;
-  // A sample of that name has these files of its own.
+  // A planned sample of that name has these files itself.
   return !fs::exists(sample_folder / "sample.yaml") && !fs::exists(sample_folder / "press/press.log");
 }
 

@@ -1,4 +1,4 @@
-// State of a sample of a planned dataset.
+// State of a sample of a planned dataset, as its files show it.
 #pragma once
 
 #include <filesystem>
@@ -7,24 +7,27 @@
 
 namespace tacipc {
 
+/// State of a sample: finished, failed, in progress, or not started.
 enum class SampleStatus { made, failed, running, unmade };
+/// Returns the word for a state.
 const char* status_word(SampleStatus status);
 
-/// Whether a sample is one finger of a grasp: its folder, `left` or `right`, lies in that of the grasp, whose press is
-/// the press of both.
+/// Returns whether a sample is one finger of a grasp: its folder, `left` or `right`, lies in the grasp's folder, whose
+/// press run both fingers share.
 bool is_finger(const std::filesystem::path& sample_folder);
-/// Where a stage of a sample runs, with its lock, log and times, and the reason if it failed.
+/// Returns the folder in which a stage of a sample runs, with its lock, log and times, and the reason if it failed.
 std::filesystem::path stage_folder(const std::filesystem::path& sample_folder, const std::string& stage);
-/// Such a file, of this ending: .log, .timings.yaml, .failed.yaml.
+/// Returns the path of the stage's file with an ending: .log, .timings.yaml, .failed.yaml.
 std::filesystem::path stage_file(const std::filesystem::path& sample_folder, const std::string& stage,
                                  const std::string& ending);
-/// Times of a stage of a sample; those of a grasp's press are its left finger's. Nothing where there are none.
+/// Returns the file with the times of a stage of a sample, or nothing if it does not exist. The press times of a grasp
+/// belong to its left finger.
 std::optional<std::filesystem::path> timings_file(const std::filesystem::path& sample_folder, const std::string& stage);
 
-/// State of a sample, from which files are there and whether a make holds its lock; reads nothing.
+/// Returns the state of a sample from the existence of files and a held lock, without reading any file.
 SampleStatus status_of(const std::filesystem::path& sample_folder);
 
-/// Whether `drop` removed what a stage wrote into its folder but the record, times and log.
+/// Returns whether `drop` removed a stage's files except the record, times and log.
 bool was_dropped(const std::filesystem::path& stage_folder);
 
 }  // namespace tacipc

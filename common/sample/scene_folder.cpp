@@ -9,7 +9,7 @@ namespace {
 namespace fs = std::filesystem;
 using enum NpyType;
 
-// Rows of finger_pose.npy.
+// Names of the rows of finger_pose.npy.
 constexpr std::array<const char*, 2> kFingers{"left", "right"};
 constexpr int kFingerCount = kFingers.size();
 
@@ -94,7 +94,7 @@ const std::array<NpyField, 7>& all_scene_fields() {
   return kFields;
 }
 
-/// A finished scene, and the bodies that its record lists, in the order of its arrays.
+/// Opens a finished scene; returns its arrays and the bodies that its record lists, in the order of the arrays.
 std::pair<ArrayFolder, std::vector<RecordLines<SceneBodyLines>>> open_scene(const fs::path& folder) {
   ArrayFolder arrays = ArrayFolder::finished(folder, "press");
   auto bodies = RecordLines<SceneSummary>(arrays.summary()).sections(&SceneSummary::bodies);
@@ -102,7 +102,7 @@ std::pair<ArrayFolder, std::vector<RecordLines<SceneBodyLines>>> open_scene(cons
   return {std::move(arrays), std::move(bodies)};
 }
 
-/// Poses of one of several bodies.
+/// Returns the poses of one of several bodies.
 std::vector<Matrix4> poses_of(const std::vector<Matrix4>& all, std::size_t body, std::size_t bodies) {
   std::vector<Matrix4> poses;
   for (std::size_t at = body; at < all.size(); at += bodies) poses.push_back(all[at]);

@@ -31,7 +31,7 @@ bool touches(const SceneBodies& scene, std::size_t gel, std::size_t frame) {
   return normal_force_n(scene.body_pose[frame][gel], force_n) > kGelTouches_n;
 }
 
-/// Frame from which on every gel that ever touches anything has done so.
+/// Returns the frame from which every gel that ever touches anything has done so.
 std::optional<std::size_t> gripped_from(const SceneBodies& scene) {
   std::optional<std::size_t> from;
   for (const std::size_t gel : gels_of(scene)) {
@@ -58,7 +58,7 @@ double normal_force_n(const Matrix4& world_from_gel, const Vector3& force_n) {
 
 namespace {
 
-/// As held_motion() has it.
+/// Follows a body as held_motion() defines its motion.
 HeldPath held_path(const SceneBodies& scene, std::size_t body, std::size_t freed, std::size_t end,
                    const HeldContacts& contacts) {
   const auto in_hand = [&](std::size_t f) -> Matrix4 {

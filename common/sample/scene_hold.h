@@ -1,5 +1,5 @@
-// Outcome of a scene for the rigid bodies that its gels hold: each body's motion as seen from the gels, judged like
-// that of a grasp. `press` decides it and the record keeps it, as summary.held.
+// Outcome of a scene for each rigid body that its gels hold: the body's motion relative to the gels, judged like that
+// of a grasp. `press` computes it and stores it in the record as summary.held.
 #pragma once
 
 #include <filesystem>
@@ -12,32 +12,33 @@
 
 namespace tacipc {
 
-/// A gel that is pressed with less does not touch.
+/// Smallest force on a gel that counts as contact.
 inline constexpr double kGelTouches_n = 1e-3;
 
-/// Force (N) on a gel into it, −f · z of its S.
+/// Returns the force on a gel into its front, −f · z of its S, N.
 double normal_force_n(const Matrix4& world_from_gel, const Vector3& force_n);
 
-/// Motion of a body since the frame `freed`, as seen from all gels together: their frame has the axes of the first gel
-/// and its origin in the middle of theirs. Slip is that of the body's point in this origin at `freed`, creep included.
+/// Returns the motion of a body since the frame `freed`, relative to a frame of all gels together. That frame has the
+/// axes of the first gel and its origin in the mean of the gels' origins. The slip is the displacement of the body's
+/// point in this origin at `freed`, including creep.
 HeldMotion held_motion(const SceneBodies& scene, std::size_t body, std::size_t freed, std::size_t frame);
 
-/// Contact of the gels with all that they touch, frame by frame.
+/// Contacts of the gels with all bodies, frame by frame.
 struct HeldContacts {
   double slip_speed_m_s = 0.0;  // ε_v: slower contacts stick
   std::vector<HeldContact> per_frame = {};
 };
 
-/// Rigid bodies that a gel touches. Each is free from its `freed_frame` on: nothing else holds it, and all gels touch
-/// that ever do. Its motion is that from there to the last frame; its outcome is lifted, held (the hand does not rise),
-/// slipped, rotated or dropped, and absent for a single gel, which holds nothing.
-/// \param free_from for each body the last frame in which a phase holds or moves it
-/// \param contacts without frames nothing is told of creep
-/// \return those that are free before the last frame
+/// Computes outcomes of rigid bodies that a gel touches. A body is free from its `freed_frame`, when nothing but gels
+/// holds it and all gels that ever touch anything do. Its motion is taken from there to the last frame. Its outcome is
+/// lifted, held (the hand does not rise), slipped, rotated or dropped; absent for a single gel, which cannot hold.
+/// \param free_from for each body, the last frame in which a phase holds or moves it
+/// \param contacts without frames, no creep is computed
+/// \return bodies that are free before the last frame
 std::vector<HeldBodyLines> held_bodies(const SceneBodies& scene, const std::vector<std::size_t>& free_from,
                                        const HeldContacts& contacts);
 
-/// What a record keeps of them; empty if it has none.
+/// Reads the outcomes from a record; empty if it has none.
 std::vector<HeldBodyLines> read_held(const std::filesystem::path& scene_folder);
 
 }  // namespace tacipc

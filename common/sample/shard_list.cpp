@@ -30,7 +30,7 @@ std::vector<std::pair<std::string, fs::path>> named_by_shard(const std::vector<f
 
 std::vector<std::pair<std::string, fs::path>> listed_shards(const fs::path& list) {
   std::vector<fs::path> files;
-  // The HDF5 file beside a shard's record: D/<shard>/<shard>.h5 for D/<shard>/pack.yaml.
+  // The HDF5 file next to a shard's record: D/<shard>/<shard>.h5 for D/<shard>/pack.yaml.
   for (const fs::path& record : listed_records(list))
     files.push_back(record.parent_path() / (record.parent_path().filename().string() + ".h5"));
   return named_by_shard(files);

@@ -1,4 +1,4 @@
-// The packed shards of a dataset: a text file that names their records (docs/files.md, shards.txt).
+// The packed shards of a dataset: a text file that lists their records (docs/files.md, shards.txt).
 #pragma once
 
 #include <filesystem>
@@ -8,14 +8,15 @@
 
 namespace tacipc {
 
-/// The lines of a text file as paths, relative ones from its folder on. Thousands of shards are more than a command
-/// line takes. \throw DataError if it names none, or a file that is not there
+/// Reads the lines of a text file as paths, relative to its folder. Thousands of shards would not fit on a command
+/// line.
+/// \throw DataError if the file lists nothing, or a file that does not exist
 std::vector<std::filesystem::path> listed_records(const std::filesystem::path& list);
 
-/// Files in the folders of shards, each under the name that records have for it: `shards/<shard>`.
+/// Names files in shard folders as records do: `shards/<shard>`.
 std::vector<std::pair<std::string, std::filesystem::path>> named_by_shard(
     const std::vector<std::filesystem::path>& files);
-/// The HDF5 files of a list, so named.
+/// Returns the HDF5 files of a list with these names.
 std::vector<std::pair<std::string, std::filesystem::path>> listed_shards(const std::filesystem::path& list);
 
 }  // namespace tacipc

@@ -14,7 +14,7 @@ Value::List rows_of(const Matrix& matrix) {
   Value::List rows;
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     Value::List row;
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.emplace_back(matrix(i, j) + 0.0);  // no negative zero
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.emplace_back(matrix(i, j) + 0.0);  // avoids negative zero
     rows.emplace_back(std::move(row));
   }
   return rows;

@@ -1,4 +1,4 @@
-// Images that must be as large as a sensor's camera.
+// Reads images that must have the size of a sensor's camera.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,16 @@
 
 namespace tacipc {
 
-/// \throw DataError with both sizes if an image of `path` is not of the camera's
+/// Checks the size of the image at `path`.
+/// \throw DataError with both sizes if it differs from the camera's
 void check_camera_size(const std::filesystem::path& path, int width_px, int height_px, const Camera& camera);
 
-/// A photograph as RGB. \throw DataError if it is not of the camera's size
+/// Reads a photograph as RGB.
+/// \throw DataError if its size differs from the camera's
 ByteImage read_photograph(const std::filesystem::path& path, const Camera& camera);
 
-/// The named channels of an EXR. \throw DataError if it is not of the camera's size
+/// Reads the named channels of an EXR.
+/// \throw DataError if its size differs from the camera's
 FloatImage read_camera_exr(const std::filesystem::path& path, const std::vector<std::string>& channel_names,
                            const Camera& camera);
 

@@ -6,7 +6,7 @@
 namespace tacipc {
 namespace {
 
-/// θ_d = θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶).
+/// Returns θ_d = θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶).
 double distorted_angle(double angle, const std::array<double, 3>& k) {
   const double t = angle * angle;
   return angle * (1.0 + t * (k[0] + t * (k[1] + t * k[2])));
@@ -54,7 +54,7 @@ std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& point, const std
   for (int step = 0; step < 50; ++step) {
     const double x = guess.x(), y = guess.y(), rr = guess.squaredNorm();
     const double scale = 1.0 + rr * (radial[0] + rr * (radial[1] + rr * radial[2]));
-    const double slope = 2.0 * (radial[0] + rr * (2.0 * radial[1] + rr * 3.0 * radial[2]));  // of the scale, over r²
+    const double slope = 2.0 * (radial[0] + rr * (2.0 * radial[1] + rr * 3.0 * radial[2]));  // d(scale) / d(r²)
     Eigen::Matrix2d jacobian;
     jacobian << scale + slope * x * x + 2.0 * tangential[0] * y + 6.0 * tangential[1] * x,
         slope * x * y + 2.0 * tangential[0] * x + 2.0 * tangential[1] * y,
@@ -80,8 +80,8 @@ CameraModel::CameraModel(const Camera& camera, const OpticalStack& stack, bool r
     intrinsics_ = *camera.intrinsics_px;
     return;
   }
-  // The focal length at which the left and the right edge see ± half the window of the plane z = 0; pixels as wide over
-  // high as the window says.
+  // The focal length at which the left and right edges show ± half the field of view in the plane z = 0; the pixel
+  // aspect ratio follows from the field of view.
   const Vector3 edge = towards({camera.position_m.x() + 0.5 * camera.window_width_m, camera.position_m.y(), 0.0});
   const double tangent = edge.x() / edge.z();
   const double reach = camera.model == Camera::Model::fisheye ? distorted_angle(std::atan(tangent), camera.radial)
@@ -91,7 +91,7 @@ CameraModel::CameraModel(const Camera& camera, const OpticalStack& stack, bool r
   intrinsics_ = {fx, fx * aspect, 0.5 * camera.width_px, 0.5 * camera.height_px};
 }
 
-/// Direction at the camera of the light that comes from a point, by the layered path or straight.
+/// Returns the direction at the camera of light from a point, by the layered path or straight.
 Vector3 CameraModel::towards(const Vector3& point) const {
   const Vector3 offset = point - camera_.position_m;
   if (!refract_) return offset.normalized();
@@ -176,7 +176,7 @@ std::optional<CameraRay> CameraModel::ray(double column, double row) const {
 
 namespace {
 
-/// Rays from the camera through points of the plane z = 0, bent at the layers.
+/// Refracts rays from the camera through points of the plane z = 0 at the layers.
 TACIPC_CLONES void refract_to_plane(const LayerStack& stack, double gel_thickness_m, const Pack& px, const Pack& py,
                                     const double* camera, CameraRays& out) {
   const Pack dx = px - camera[0], dy = py - camera[1];
@@ -226,7 +226,7 @@ CameraRays CameraModel::rays(const Pack& columns, double row) const {
 std::optional<Eigen::Vector2d> CameraModel::project(const Vector3& point) const {
   if (refract_ ? gel_thickness_m_ + point.z() <= 0.0 : point.z() <= camera_.position_m.z()) return std::nullopt;
   if (camera_.model != Camera::Model::rectified) return image_of(towards(point));
-  // On along the ray in the gel to the plane z = 0, whose points the pixels are.
+  // Continue along the ray in the gel to the plane z = 0, whose points are the pixels.
   Eigen::Vector2d slope = (point - camera_.position_m).head<2>() / (point.z() - camera_.position_m.z());
   if (refract_) {
     const Vector3 offset = point - camera_.position_m;

@@ -15,12 +15,13 @@ constexpr int kBlockPx = 16;
 constexpr double kNoHorizon = -std::numeric_limits<double>::infinity();
 constexpr double kLeastHorizon = 0.005;
 
-/// One pixel of the undeformed front: parallax within a shadow's length is neglected.
+/// Size of one pixel of the undeformed front: parallax within a shadow's length is neglected.
 double pixel_width(const MembraneView& view) { return view.rest[1].x() - view.rest[0].x(); }
 double pixel_height(const MembraneView& view) { return view.rest[view.width].y() - view.rest[0].y(); }
 
-/// The highest tangent on the way by (dx, dy) pixels a step over heights `z_of(i)` by pixel, if it exceeds `highest`,
-/// else that. `lowest_z(u, v)`: no point of the way from pixel (u, v) on lies deeper.
+/// Marches by (dx, dy) pixels per step over heights `z_of(i)`. Returns the largest tangent on the path, or `highest` if
+/// that is larger.
+/// \param lowest_z lower bound of all points ahead of pixel (u, v)
 template <typename Height, typename Lowest>
 double march(const MembraneView& view, const Height& z_of, int x, int y, double dx, double dy, double pixel,
              double highest, const Lowest& lowest_z) {
@@ -38,7 +39,7 @@ double march(const MembraneView& view, const Height& z_of, int x, int y, double 
   }
 }
 
-/// Deepest z of each block of pixels, then of each block and its eight neighbours.
+/// Returns the smallest z of each block of pixels and its eight neighbours.
 std::vector<double> lowest_around(const MembraneView& view, int wide, int high) {
   std::vector<double> own(static_cast<std::size_t>(wide) * high, 0.0);
   const auto at = [&](int i, int j) { return static_cast<std::size_t>(j) * wide + i; };
@@ -56,14 +57,15 @@ std::vector<double> lowest_around(const MembraneView& view, int wide, int high) 
   return around;
 }
 
-/// Deepest z on the way from any pixel of a block. Every half block on the way from its middle, rays from its other
-/// pixels are within three quarters of a block: in the block around that place or one of its neighbours.
+/// Returns the smallest z on paths from any pixel of each block. At every half block along the path from the block's
+/// middle, paths from its other pixels are within three quarters of a block: in the block at that point or one of its
+/// neighbours.
 std::vector<double> lowest_on_the_way(const std::vector<double>& around, int wide, int high, double dx, double dy) {
   std::vector<double> out(around.size());
   for (int j = 0; j < high; ++j)
     for (int i = 0; i < wide; ++i) {
       double lowest = 0.0;
-      for (double s = 0.0;; s += 0.5) {  // blocks
+      for (double s = 0.0;; s += 0.5) {  // in units of blocks
         const double u = i + 0.5 + s * dx, v = j + 0.5 + s * dy;
         if (!(u > -1.0 && v > -1.0 && u < wide + 1.0 && v < high + 1.0)) break;
         const int k = std::clamp(static_cast<int>(std::floor(u)), 0, wide - 1),
@@ -96,7 +98,7 @@ DomeIrradiance::DomeIrradiance(const DomeBins& bins, const MembraneView& view) :
   edges_.push_back({0.25 * std::numbers::pi, 0.5});
   for (std::size_t k = 0; k + 1 < edges_.size(); ++k)
     bands_.push_back({edges_[k + 1].along - edges_[k].along, edges_[k + 1].across - edges_[k].across});
-  const bool alone = view.width < 2 || view.height < 2;  // nothing stands beside a pixel
+  const bool alone = view.width < 2 || view.height < 2;  // a single row or column of pixels casts no shadow
   const int wide = (view.width + kBlockPx - 1) / kBlockPx, high = (view.height + kBlockPx - 1) / kBlockPx;
   const std::vector<double> around = lowest_around(view, wide, high);
   blocks_wide_ = wide;
@@ -105,7 +107,7 @@ DomeIrradiance::DomeIrradiance(const DomeBins& bins, const MembraneView& view) :
   for (int d = 0; d < count; ++d) {
     const double azimuth = 2.0 * std::numbers::pi * d / count;
     Direction direction;
-    // Along rows and columns exactly, so that no march leaves the image's outermost line by rounding.
+    // Exactly along rows and columns, so that rounding does not move the march off the image's outermost line.
     const auto exact = [](double value) { return std::abs(value) < 1e-12 ? 0.0 : value; };
     direction.cosine = exact(std::cos(azimuth));
     direction.sine = exact(std::sin(azimuth));
@@ -128,10 +130,10 @@ void DomeIrradiance::integrate(const Vector3& normal, const Horizon& horizon, do
   for (int d = 0; d < count; ++d) {
     const Direction& direction = directions_[d];
     const double a = normal.x() * direction.cosine + normal.y() * direction.sine;
-    // Above the plane's own horizon too, which the march meets only one pixel away.
+    // The horizon of the tangent plane itself also counts; the march meets it only one pixel away.
     const double facing = nz > 0.0 ? a / nz : std::numeric_limits<double>::infinity();
     const double tangent = std::max(facing, horizon(d, std::max(facing, kLeastHorizon)));
-    // The first `hidden` bands begin below the horizon: only the last of them may be seen in part.
+    // The first `hidden` bands begin below the horizon; only the last of them may be partly visible.
     std::size_t hidden = 0;
     while (hidden < bands && tangent > bins_.elevation_tan[hidden]) ++hidden;
     for (std::size_t k = 0; k < bands; ++k) lit[k] = k < hidden ? 0.0 : bands_[k].integral(a, nz);
@@ -172,7 +174,7 @@ std::vector<double> DomeIrradiance::row_horizons(int y) const {
       if (!(v >= 0.0 && v <= height - 1)) break;
       const int u0 = static_cast<int>(std::floor(u)), v0 = std::min(static_cast<int>(v), height - 2);
       const double a = u - u0, b = v - v0, inverse = 1.0 / (s * pixel_m_);
-      const bool between = a > 0.0;  // two columns
+      const bool between = a > 0.0;  // interpolate between two columns
       const int first = std::max(0, -u0), last = std::min(width, width - u0 - (between ? 1 : 0));
       if (first >= last) break;
       if (top - direction.lowest_of_row[v0 / kBlockPx] <= kLeastHorizon * s * pixel_m_) break;

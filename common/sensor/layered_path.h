@@ -1,4 +1,4 @@
-// Light through planar layers: the one path from a point to a point, and how much arrives, in closed form.
+// Light through planar layers: the one path between two points and the fraction of light that arrives, in closed form.
 #pragma once
 
 #include <array>
@@ -11,13 +11,14 @@
 namespace tacipc {
 
 /// Layers across z from a source (layer 0) to a receiver (the last), each with thickness and refractive index. The last
-/// thickness is that at z = 0; receivers lie elsewhere.
+/// thickness is for a receiver at z = 0; paths to other receivers give their own.
 struct LayerStack {
   static constexpr int kMaxLayers = 8;
   std::array<double, kMaxLayers> thickness_m{};
   std::array<double, kMaxLayers> ior{};
   int count = 0;
 
+  /// Appends a layer.
   void add(double thickness, double index) {
     assert(count < kMaxLayers);
     if (count > 0) reduced_m += thickness_m[count - 1] / ior[count - 1];
@@ -26,7 +27,7 @@ struct LayerStack {
     ior[count++] = index;
   }
   double lowest_ior = 1.0;
-  double reduced_m = 0.0;  // Σ h_i / n_i but for the last layer
+  double reduced_m = 0.0;  // Σ h_i / n_i over all layers but the last
 };
 
 TACIPC_INLINE double root(double x) { return std::sqrt(x); }
@@ -36,7 +37,7 @@ TACIPC_INLINE Pack root(const Pack& x) {
   return out;
 }
 TACIPC_INLINE double larger(double a, double b) { return a > b ? a : b; }
-/// True if |small| ≤ bound · |large| in every lane.
+/// Returns whether |small| ≤ bound · |large| in every lane.
 TACIPC_INLINE bool negligible(double small, double large, double bound) {
   return std::abs(small) <= bound * std::abs(large);
 }
@@ -44,19 +45,19 @@ TACIPC_INLINE bool negligible(const Pack& small, const Pack& large, double bound
   return all_of(larger(small, -small) <= bound * larger(large, -large));
 }
 
-/// What the closed form says of one path (T: double) or eight (T: Pack). Angles count from z.
+/// Path through the layers: one (T: double) or eight (T: Pack). Angles count from z.
 template <typename T>
 struct LayeredPath {
-  T sine_over_lateral;  // p / r in 1/m, p = n_i sin θ_i the same in all layers: sin θ_i = r (p / r) / n_i
-  T cosine_first;       // cos θ_0 where the path leaves the source
+  T sine_over_lateral;  // p / r in 1/m; p = n_i sin θ_i is the same in all layers: sin θ_i = r (p / r) / n_i
+  T cosine_first;       // cos θ_0 at the source
   T cosine_last;        // cos θ in the last layer
-  T secant_last;        // 1 / cos θ there
+  T secant_last;        // 1 / cos θ in the last layer
   T spread;             // J = (sin θ_0 dθ_0) / (r dr): solid angle at the source per area of the plane, 1/m²
   T transmittance;      // product of (1 − (Rs + Rp)/2) over the interfaces, Fresnel for unpolarised light
-  T stretch;            // q of the path over q if all angles were small, ≥ 1: where the search for the next may begin
+  T stretch;            // q of the path over q at small angles, ≥ 1: start value for the search of a nearby path
 };
 
-/// s_i, and the sums over layers that r(q) and its derivatives are made of.
+/// The terms s_i, and the sums over layers from which r(q) and its derivatives follow.
 template <int kCount, typename T>
 struct LayerSums {
   static constexpr int kRoom = kCount > 0 ? kCount : LayerStack::kMaxLayers;
@@ -64,13 +65,13 @@ struct LayerSums {
   T sum, slope, bend;  // S / n_m = Σ h_i / s_i;  D = Σ h_i n_i² / s_i³;  Σ h_i n_i² (n_i² − n_m²) / s_i⁵
 };
 
-/// n_i² − n_m²; 0 for layers of the lowest index, whose s_i is n_i.
+/// Returns n_i² − n_m²; 0 for layers of the lowest index, whose s_i is n_i.
 TACIPC_INLINE double over_lowest(const LayerStack& stack, int i) {
   const double n = stack.ior[i];
   return n * n - stack.lowest_ior * stack.lowest_ior;
 }
 
-/// s_i and 1 / s_i at q², with one division for all layers.
+/// Computes s_i and 1 / s_i at q², with one division for all layers.
 template <int kCount, typename T>
 TACIPC_INLINE void solve_layers(const LayerStack& stack, int count, const T& qq, LayerSums<kCount, T>& out) {
   T product = T{} + 1.0;
@@ -88,8 +89,8 @@ TACIPC_INLINE void solve_layers(const LayerStack& stack, int count, const T& qq,
   }
 }
 
-/// The same after a step that changes q² so little that four terms of the square roots' series say all: with
-/// ε = (n_i² − n_m²) Δq² / s_i² below 2e-4 what is left out is below 1e-15.
+/// Updates s_i and 1 / s_i after a change of q² so small that four terms of the square roots' series suffice: with ε =
+/// (n_i² − n_m²) Δq² / s_i² below 2e-4, the remainder is below 1e-15.
 template <int kCount, typename T>
 TACIPC_INLINE void shift_layers(const LayerStack& stack, int count, const T& change, LayerSums<kCount, T>& out) {
   for (int i = 0; i < count; ++i) {
@@ -101,6 +102,7 @@ TACIPC_INLINE void shift_layers(const LayerStack& stack, int count, const T& cha
   }
 }
 
+/// Computes the sums over layers.
 template <int kCount, typename T>
 TACIPC_INLINE void sum_layers(const LayerStack& stack, int count, const T& last_thickness, LayerSums<kCount, T>& out) {
   out.sum = out.slope = out.bend = T{};
@@ -115,12 +117,14 @@ TACIPC_INLINE void sum_layers(const LayerStack& stack, int count, const T& last_
   }
 }
 
-/// `kCount` layers, known to the compiler; 0: as many as the stack has.
+/// Computes the path; see layered_path().
+/// \tparam kCount number of layers if known at compile time; 0: the stack's number
 template <int kCount, typename T>
 TACIPC_INLINE LayeredPath<T> path_through(const LayerStack& stack, const T& last_thickness, const T& squared_lateral,
                                           const T& stretch) {
   constexpr int kMaxSteps = 12;
-  // The cube of a step that small is below what is promised, so the step itself ends the search.
+  // The error after such a step is of the order of its cube, which is below the promised accuracy, so the step ends the
+  // search.
   constexpr double kLastStep = 5e-5, kAtRoot = 1e-11;
   const int count = kCount > 0 ? kCount : stack.count;
   const double nm = stack.lowest_ior, n0 = stack.ior[0], nl = stack.ior[count - 1];
@@ -131,7 +135,7 @@ TACIPC_INLINE LayeredPath<T> path_through(const LayerStack& stack, const T& last
   solve_layers<kCount, T>(stack, count, k * k * rr, at);
   for (int step = 0;; ++step) {
     sum_layers<kCount, T>(stack, count, last_thickness, at);
-    const T missing = 1.0 / nm - k * at.sum, per_step = k * at.slope;  // their ratio: Newton's step over k
+    const T missing = 1.0 / nm - k * at.sum, per_step = k * at.slope;  // Newton's step over k is their ratio
     if (step == kMaxSteps || negligible(missing, per_step, kAtRoot)) break;
     const T squared = at.slope * at.slope;
     const T change = missing * at.slope / larger(squared - 1.5 * missing * k * rr * at.bend, 0.5 * squared);
@@ -157,10 +161,10 @@ TACIPC_INLINE LayeredPath<T> path_through(const LayerStack& stack, const T& last
   }
   const T ww = 1.0 + k * k * rr, secant = root(ww);  // 1 / w
   const T steep = ww * at.s[0] * at.slope, all = steep * secant * at.sum;
-  const T inverse = 1.0 / (all * of), shared = inverse * of;  // one division for all that is asked for
+  const T inverse = 1.0 / (all * of), shared = inverse * of;  // one division for all results
   LayeredPath<T> path;
   const T w = shared * steep * at.sum;
-  path.sine_over_lateral = nm * k * w;  // by q, not by S: at grazing angles an error of q does not show
+  path.sine_over_lateral = nm * k * w;  // computed from q, not from S: at grazing angles an error of q does not matter
   path.cosine_first = at.s[0] * w * (1.0 / n0);
   path.cosine_last = at.s[count - 1] * w * (1.0 / nl);
   path.secant_last = nl * secant * at.inverse[count - 1];
@@ -170,20 +174,20 @@ TACIPC_INLINE LayeredPath<T> path_through(const LayerStack& stack, const T& last
   return path;
 }
 
-/// The path that goes r sideways, r² = `squared_lateral`, through `stack` with `last_thickness` in its last layer, m.
-/// With q = tan θ in the layer of lowest index n_m,
+/// Computes the path with lateral distance r, r² = `squared_lateral`, through `stack` with `last_thickness` (m) in its
+/// last layer. With q = tan θ in the layer of lowest index n_m,
 ///   r(q) = q S,  S = Σ h_i n_m / s_i,  s_i = √(n_i² + (n_i² − n_m²) q²)
-/// is increasing and concave. Halley's steps (Newton's, corrected by the second derivative) lead to the root, from
-/// q = r / r'(0) times `stretch`: 1, or a guess; the result does not depend on it. Then with w = 1/√(1 + q²) and D = Σ
-/// h_i n_i² / s_i³:
+/// is increasing and concave. Halley's method (Newton's, corrected by the second derivative) finds the root, starting
+/// from q = r / r'(0) times `stretch`: 1, or a guess; the result does not depend on it. Then with w = 1/√(1 + q²) and D
+/// = Σ h_i n_i² / s_i³:
 ///   n_i cos θ_i = s_i w,   p / r = n_m q w / r,   J = n_m w³ / (n_0 s_0 S D),
-/// and the w cancels from Fresnel's equations. Nothing is singular at r = 0. Relative error of q below 1e-10.
+/// and w cancels from Fresnel's equations. Nothing is singular at r = 0. The relative error of q is below 1e-10.
 /// [Snell's and Fresnel's laws; p is the ray parameter of layered media]
 /// \pre last_thickness > 0, all indices > 0
 template <typename T>
 TACIPC_INLINE LayeredPath<T> layered_path(const LayerStack& stack, const T& last_thickness, const T& squared_lateral,
                                           const T& stretch = T{} + 1.0) {
-  switch (stack.count) {  // numbers of layers that sensors have; known, they stay in registers
+  switch (stack.count) {  // usual numbers of layers: with a constant count, values stay in registers
     case 2: return path_through<2>(stack, last_thickness, squared_lateral, stretch);
     case 3: return path_through<3>(stack, last_thickness, squared_lateral, stretch);
     default: return path_through<0>(stack, last_thickness, squared_lateral, stretch);

@@ -6,7 +6,7 @@
 namespace tacipc {
 namespace {
 
-/// Gaussian lobe of the colour-matching fit, with a width for each side.
+/// Returns one Gaussian lobe of the colour-matching fit, with a width for each side.
 double lobe(double nanometre, double mean, double left, double right) {
   const double t = (nanometre - mean) * (nanometre < mean ? left : right);
   return std::exp(-0.5 * t * t);
@@ -19,7 +19,8 @@ Vector3 srgb_from(const Vector3& xyz) {
   return srgb_from_xyz * xyz;
 }
 
-/// CIE 1931 colour-matching functions at a wavelength (piecewise Gaussian fit of Wyman et al. 2013): X, Y, Z.
+/// Returns the CIE 1931 colour-matching functions X, Y, Z at a wavelength (piecewise Gaussian fit of Wyman et al.
+/// 2013).
 Vector3 color_matching(double nanometre) {
   const double w = nanometre;
   return {1.056 * lobe(w, 599.8, 0.0264, 0.0323) + 0.362 * lobe(w, 442.0, 0.0624, 0.0374) -

@@ -7,11 +7,11 @@
 
 namespace tacipc {
 
-/// Linear sRGB of a black body at `kelvin`, largest channel 1 (Planck's law).
+/// Returns linear sRGB of a black body at `kelvin`, largest channel 1 (Planck's law).
 std::array<double, 3> color_of_temperature(double kelvin);
 
-/// Linear sRGB per unit luminance of a Gaussian spectrum with peak and full width at half maximum in nm. Saturated
-/// lights lie outside what sRGB can show: those have negative channels.
+/// Returns linear sRGB per unit luminance of a Gaussian spectrum with peak and full width at half maximum in nm.
+/// Saturated colours lie outside the sRGB gamut and have negative channels.
 std::array<double, 3> color_of_line(double peak_nm, double fwhm_nm);
 
 }  // namespace tacipc

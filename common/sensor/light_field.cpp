@@ -12,7 +12,8 @@
 namespace tacipc {
 namespace {
 
-/// Height of the membrane at fractional pixels (bilinear); nothing outside the image.
+/// Interpolates the membrane's height at fractional pixels (bilinear).
+/// \return false outside the image
 bool height_at(const MembraneView& view, double x, double y, double& z) {
   if (!(x >= 0.0 && y >= 0.0 && x <= view.width - 1 && y <= view.height - 1)) return false;
   const int x0 = std::min(static_cast<int>(x), view.width - 2), y0 = std::min(static_cast<int>(y), view.height - 2);
@@ -39,8 +40,8 @@ double lamp_visibility(const MembraneView& view, int x, int y, const Vector3& la
   const Vector3 way = lamp_m - point;
   const double distance = std::hypot(way.x(), way.y());
   if (distance == 0.0 || view.width < 2 || view.height < 2) return 1.0;
-  const double fall = way.z() / distance;  // < 0: towards the lamp the path goes into the gel
-  // One pixel of the undeformed front: parallax within a shadow's length is neglected.
+  const double fall = way.z() / distance;  // < 0: towards the light the path goes into the gel
+  // Size of one pixel of the undeformed front: parallax within a shadow's length is neglected.
   const double pixel_x = view.rest[1].x() - view.rest[0].x();
   const double pixel_y = view.rest[view.width].y() - view.rest[0].y();
   const double step = kStepPx * pixel_x;
@@ -50,7 +51,7 @@ double lamp_visibility(const MembraneView& view, int x, int y, const Vector3& la
     double z = 0.0;
     if (!height_at(view, x + i * dx, y + i * dy, z)) break;
     clearance = std::min(clearance, (z - point.z()) / (i * step) - fall);
-    // Nothing lies deeper than the object went, a gel's thickness at most; 3 mm covers every press a gel survives.
+    // No point lies deeper than the object, at most a gel's thickness; 3 mm covers every press a gel survives.
     constexpr double kMaxDepthM = 3e-3;
     if (point.z() + fall * i * step < -kMaxDepthM) break;
   }
@@ -146,7 +147,7 @@ void LightFeatures::row_bases(int y, Eigen::MatrixXd& out) const {
 FloatImage code_change(const LightField& light, const MembraneView& view) {
   FloatImage change(view.width, view.height, 3);
   const LightFeatures of(light.geometry, view);
-  // Σ_j f_j (Σ_k w_kj φ_k) spares the products f_j φ_k of every pixel.
+  // Σ_j f_j (Σ_k w_kj φ_k) avoids the products f_j φ_k at every pixel.
   const Eigen::Index terms = light.geometry.num_field_terms(), bases = light.geometry.num_bases();
   Eigen::MatrixXd weights(3 * terms, bases);
   for (Eigen::Index k = 0; k < bases; ++k)

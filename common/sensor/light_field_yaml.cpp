@@ -1,4 +1,4 @@
-// The file of a light field: section `light_field`, lengths in mm, weights in codes.
+// Reads and writes the file of a light field: section `light_field`, lengths in mm, weights in 8-bit levels.
 #include <algorithm>
 #include <array>
 #include <functional>

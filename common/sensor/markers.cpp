@@ -9,10 +9,11 @@
 namespace tacipc {
 namespace {
 
-/// How far outside a triangle, in barycentric coordinates, a point may seem to lie by rounding.
+/// Tolerance, in barycentric coordinates, for points outside a triangle by rounding.
 constexpr double kOutside = 1e-9;
 
-/// Barycentric coordinates of a triangle's corners at (x, y), seen from above; nothing if it does not look up.
+/// Returns barycentric coordinates of a triangle's corners at (x, y), seen along z; nothing if it faces sideways or
+/// inwards.
 std::optional<Vector3> weights_at(const Eigen::Vector2d& point, const Positions& rest, const Triangles& front,
                                   Eigen::Index triangle) {
   Eigen::Vector2d corner[3];

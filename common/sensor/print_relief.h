@@ -1,4 +1,4 @@
-// The surface of a printed object as it was made: slopes that its mesh does not have, layers and uneven edges.
+// Surface of a printed object as manufactured: slopes that its mesh lacks, from layers and uneven edges.
 #pragma once
 
 #include <filesystem>
@@ -9,19 +9,20 @@
 
 namespace tacipc {
 
-/// Over the object's own plane: a grid of the camera's size and pixel about the object's axis, turned with it.
-/// Channels: height of the surface in frame S less that of the object's origin (m), and how much steeper it is there
-/// than the mesh's along x and y of the object (tangents). Where nothing is known: height 1 m, which no membrane has.
+/// Relief over the object's plane: a grid with the camera's size and pixel pitch about the object's axis, which rotates
+/// with the object. Channels: height of the surface in frame S above the object's origin (m), and the slopes (tangents)
+/// along x and y of the object in addition to the mesh's. Unknown pixels have height 1 m, which no membrane reaches.
 struct PrintRelief {
-  FloatImage map;  // 3 channels
-  double pixel_m = 0.0;
+  FloatImage map;        // 3 channels
+  double pixel_m = 0.0;  // pixel pitch, m
 
-  /// \throw DataError if the file is not one of the camera's size
+  /// Reads the relief.
+  /// \throw DataError if the file does not have the camera's size
   static PrintRelief read(const std::filesystem::path& path, const Camera& camera);
   void write(const std::filesystem::path& path) const;
 };
 
-/// Where an object stands: its axis, turn about z and the height of its origin.
+/// Position of an object: its axis, rotation about z and the height of its origin.
 struct ObjectPlace {
   double x_m = 0.0;
   double y_m = 0.0;
@@ -29,10 +30,10 @@ struct ObjectPlace {
   double origin_z_m = 0.0;
 };
 
-/// Turns the normals by the relief's slopes where the membrane lies on the surface, to within 12 µm.
+/// Tilts the normals by the relief's slopes where the membrane touches the surface, within 12 µm.
 void apply_relief(const PrintRelief& relief, const ObjectPlace& place, MembraneView& view);
 
-/// The normal that is steeper than `normal` by these slopes along x and y.
+/// Returns `normal` with these slopes added along x and y.
 Vector3 steeper(const Vector3& normal, double slope_x, double slope_y);
 
 }  // namespace tacipc

@@ -18,7 +18,7 @@ std::array<double, 3> rgb(ConfigReader& in, const std::string& key, const Range&
 }  // namespace
 
 GelShape GelShape::read(ConfigReader& in) {
-  // From a micrometre to ten metres, and no ribbon: far beyond any sensor, and within what meshing bears.
+  // A micrometre to ten metres, and no strip: far beyond any sensor, and within the limits of meshing.
   const Range length_mm = Range::between(1e-3, 1e4);
   constexpr double kLongest = 100.0;  // times the shorter side
   GelShape shape;
@@ -58,7 +58,7 @@ bool GelShape::contains(double x, double y) const {
 double GelShape::front_z(double x, double y) const {
   if (!dome_radius_m) return 0.0;
   const double squared = x * x + y * y;
-  // R − √(R² − r²) = r² / (R + √(R² − r²)), free of cancellation near the apex.
+  // R − √(R² − r²) = r² / (R + √(R² − r²)), which does not cancel near the apex.
   return -squared / (*dome_radius_m + std::sqrt(std::max(0.0, *dome_radius_m * *dome_radius_m - squared)));
 }
 
@@ -74,7 +74,7 @@ Material Material::read(ConfigReader& in) {
     material.relaxation.push_back({part, member.number("time_s", {.low = 0.0, .high = 1e9, .open_low = true})});
     sum += part;
   }
-  // What is left carries the relaxed gel: with nothing left the long-term modulus could not be that of the file.
+  // The remaining fraction supports the relaxed gel: without it the long-term modulus could not be that of the file.
   if (!(sum < 1.0)) in.fault("relaxation", fmt::format("its parts sum to {:g}, which must be less than 1", sum));
   return material;
 }
@@ -86,7 +86,7 @@ double Material::lame_lambda_pa() const {
 double Material::lame_mu_pa() const { return youngs_modulus_pa / (2.0 * (1.0 + poissons_ratio)); }
 
 Mount Mount::read(ConfigReader& in) {
-  // Up to a metre per newton: a spring that soft holds no gel.
+  // At most a metre per newton: a softer spring holds no gel.
   const Range compliance = Range::between(0.0, 1e3);
   return {.compliance_m_per_n = kMillimetre * in.number_or("compliance_mm_per_n", 0.0, compliance),
           .shear_compliance_m_per_n = kMillimetre * in.number_or("shear_compliance_mm_per_n", 0.0, compliance)};

@@ -1,4 +1,4 @@
-// The optical half of a sensor file: layers, paint, lights, camera, response.
+// Reads the optical half of a sensor file: layers, paint, lights, camera, response.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 std::array<double, 3> triple(const std::vector<double>& values) { return {values[0], values[1], values[2]}; }
 
-/// A number for a square, or two: away from the sensor's axis and across.
+/// Reads a number for a square, or two: radial and tangential about the sensor's axis.
 std::array<double, 2> emitter_size(ConfigReader& in, const std::array<double, 2>& otherwise) {
   if (in.has("size_mm") && in.is_list("size_mm")) {
     const auto size = in.numbers("size_mm", 2, Range::non_negative());
@@ -27,7 +27,7 @@ std::array<double, 2> emitter_size(ConfigReader& in, const std::array<double, 2>
   return {size, size};
 }
 
-/// What an LED may say of itself, or the section for all of them.
+/// Reads the keys that an LED, or the section for all LEDs, may give.
 Led emitter(ConfigReader& in, Led led) {
   const std::vector<std::string> names = {"lambertian", "isotropic", "cosine_power"};
   const std::string emission = in.choice_or("emission", names[static_cast<std::size_t>(led.emission)], names);
@@ -52,7 +52,7 @@ void read_color(ConfigReader& in, Led& led, std::vector<Led>& leds) {
   leds.push_back(led);
 }
 
-/// Reports an LED that stands where its light could not be followed.
+/// Reports an LED at a position from which light cannot be traced.
 void check_place(ConfigReader& in, const std::string& key, const Led& led, const GelShape& gel,
                  const OpticalStack& stack) {
   const double x = led.position_m.x(), y = led.position_m.y(), z = led.position_m.z();
@@ -103,7 +103,7 @@ double OpticalStack::back_z_m() const {
 
 LayerStack OpticalStack::from(double z_m) const {
   assert(refracts() && z_m < -gel_thickness_m);
-  std::size_t holding = 0;  // the layer that z_m lies in, or their number: air
+  std::size_t holding = 0;  // layer that contains z_m, or the number of layers for air
   double top = -gel_thickness_m;
   while (holding < layers.size() && z_m < top - layers[holding].thickness_m) top -= layers[holding++].thickness_m;
   LayerStack stack;
@@ -144,7 +144,7 @@ std::vector<Led> Led::read_all(ConfigReader& in, const GelShape& gel, const Opti
       led.position_m = {radius_m * std::cos(azimuth), radius_m * std::sin(azimuth), z_m};
       led.normal = {-std::sin(tilt_rad) * std::cos(azimuth), -std::sin(tilt_rad) * std::sin(azimuth),
                     std::cos(tilt_rad)};
-      if (leds.empty()) check_place(*ring, "z_mm", led, gel, stack);  // all of them stand alike
+      if (leds.empty()) check_place(*ring, "z_mm", led, gel, stack);  // all LEDs of a ring have equal positions in z
       read_color(item, led, leds);
     }
     if (leds.empty()) ring->fault("lit", "no LED is lit");
@@ -196,7 +196,7 @@ Diffuser Diffuser::read(ConfigReader& in, const OpticalStack& stack, const std::
 
 namespace {
 
-/// The keys of the file that say what the camera sees: one is right.
+/// Returns the keys of the file that define the camera's view; exactly one is allowed.
 std::vector<std::string> ways_given(const ConfigReader& in) {
   std::vector<std::string> given;
   for (const char* key : {"window_mm", "intrinsics_px", "horizontal_fov_deg"})
@@ -254,7 +254,7 @@ Camera Camera::read(ConfigReader& in, const GelShape& gel, const OpticalStack& s
   if (auto vignetting = in.optional_section("vignetting")) {
     camera.vignetting = {vignetting->number_or("v2", 0.0), vignetting->number_or("v4", 0.0)};
     const auto [v2, v4] = camera.vignetting;
-    const double turn = v4 != 0.0 ? -0.5 * v2 / v4 : 1.0;  // of ρ², where the polynomial has its extremum
+    const double turn = v4 != 0.0 ? -0.5 * v2 / v4 : 1.0;  // ρ² at which the polynomial has its extremum
     const double least = std::min(1.0 + v2 + v4, turn > 0.0 && turn < 1.0 ? 1.0 + 0.5 * v2 * turn : 1.0);
     if (least <= 0.0) in.fault("vignetting", "leaves no light somewhere in the image");
   }

@@ -5,7 +5,7 @@
 namespace tacipc {
 namespace {
 
-/// As text: nothing in it is a request or an escape to roff.
+/// Escapes text, so that roff finds no request or escape in it.
 std::string plain(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -20,7 +20,7 @@ std::string plain(const std::string& text) {
   return out;
 }
 
-/// An argument of a roff request.
+/// Quotes an argument of a roff request.
 std::string in_quotes(const std::string& text) {
   std::string out = "\"";
   for (const char c : plain(text)) out += c == '"' ? std::string("\\(dq") : std::string(1, c);
@@ -32,7 +32,7 @@ std::string in_quotes(const std::string& text) {
 std::string to_roff(const ManPage& page) {
   std::string upper;
   for (const char c : page.name) upper += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  // No date: the same program gives the same bytes.
+  // No date, so that the same program gives the same bytes.
   std::string roff =
       fmt::format(".TH {} 1 \"\" {} \"TacIPC\"\n", in_quotes(upper), in_quotes("TacIPC " + page.version));
   roff += fmt::format(".SH NAME\n{} \\- {}\n", plain(page.name), plain(page.summary));

@@ -1,4 +1,4 @@
-// A file with the name by which a stage is told what it is: NAME=PATH on the command line.
+// An input file with its name: NAME=PATH on the command line.
 #pragma once
 
 #include <filesystem>
@@ -6,6 +6,7 @@
 
 namespace tacipc {
 
+/// A path and its name.
 struct NamedPath {
   std::string name;
   std::filesystem::path path;

@@ -80,7 +80,7 @@ std::vector<std::string> Record::texts(const std::string& key) const {
 std::optional<std::vector<double>> Record::numbers(const std::string& key, std::size_t how_many) const {
   if (!has(key)) return std::nullopt;
   ConfigReader reader = *reader_;
-  // What the reader cannot use it replaces by the fallback, which no record holds.
+  // The reader replaces an invalid value by the fallback, which no record contains.
   auto values = reader.numbers_or(key, std::vector<double>(how_many, std::numeric_limits<double>::quiet_NaN()));
   for (const double value : values) {
     if (!std::isfinite(value)) refuse(key, fmt::format("expected a list of {} numbers", how_many));

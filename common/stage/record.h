@@ -1,4 +1,4 @@
-// Lookups in the record of another stage, where values may be absent but not malformed.
+// Reads the record of another stage. Values may be absent but not malformed.
 #pragma once
 
 #include <filesystem>
@@ -11,33 +11,39 @@
 
 namespace tacipc {
 
-/// A map of a record. Looking into a map that is not there finds nothing, so lookups can be chained.
+/// A map of a record. An absent map behaves as an empty one, so that lookups can be chained.
 class Record {
  public:
-  /// \throw DataError if the file cannot be read, ConfigError if it is not a YAML map.
+  /// Reads a record.
+  /// \throw DataError if the file cannot be read
+  /// \throw ConfigError if it is not a YAML map
   static Record from_file(const std::filesystem::path& path);
 
+  /// Returns the map at a key.
   Record section(const std::string& key) const;
-  /// The maps of a list; empty where the key is absent.
+  /// Returns the maps of a list; empty if the key is absent.
   std::vector<Record> sections(const std::string& key) const;
-  /// A map, or the maps of a list: what may be written either way. Empty where the key is absent.
+  /// Returns a map as a list of one, or the maps of a list. Empty if the key is absent.
   std::vector<Record> one_or_many(const std::string& key) const;
+  /// Returns whether the key exists.
   bool has(const std::string& key) const { return reader_ && reader_->has(key); }
-  /// The keys of this map, in file order.
+  /// Returns the keys of this map, in file order.
   std::vector<std::string> keys() const { return reader_ ? reader_->keys() : std::vector<std::string>(); }
 
-  /// Absent: nullopt. \throw DataError naming file and key if the value is of another type.
+  /// Return a value; nothing if the key is absent.
+  /// \throw DataError naming file and key if the value has another type
   std::optional<std::string> text(const std::string& key) const;
   std::optional<double> number(const std::string& key) const;
   std::optional<int> count(const std::string& key) const;  // a whole number ≥ 0
   std::optional<bool> flag(const std::string& key) const;
-  /// The words of a list; empty where the key is absent.
+  /// Returns the texts of a list; empty if the key is absent.
   std::vector<std::string> texts(const std::string& key) const;
   std::optional<std::vector<double>> numbers(const std::string& key, std::size_t how_many) const;
-  /// A number, or a list of two: lowest and highest. Of a number both are that.
+  /// Returns lowest and highest of a list of two numbers; a single number counts as both.
   std::optional<std::pair<double, double>> range(const std::string& key) const;
 
-  /// \throw DataError naming file and key if the value is absent.
+  /// Return a value that must be present.
+  /// \throw DataError naming file and key if it is absent
   std::string required_text(const std::string& key) const { return present(text(key), key); }
   double required_number(const std::string& key) const { return present(number(key), key); }
   int required_count(const std::string& key) const { return present(count(key), key); }
@@ -54,7 +60,7 @@ class Record {
     return *value;
   }
 
-  std::optional<ConfigReader> reader_;  // its own list of faults is not used: it would also complain of unknown keys
+  std::optional<ConfigReader> reader_;  // errors of this reader are not used: they include unknown keys
   std::string file_;
   std::string path_;
 };

@@ -1,4 +1,4 @@
-// Lines of a record that a struct declares: written from the struct, and read back from a record key by key.
+// Maps a struct to lines of a record: writes them, and reads them back key by key.
 #pragma once
 
 #include <cassert>
@@ -14,7 +14,7 @@
 
 namespace tacipc {
 
-/// A key of a record and the member of `Lines` that has its value.
+/// A key of a record and the member of `Lines` that holds its value.
 template <typename Lines, typename T>
 struct Key {
   constexpr Key(const char* key, T Lines::*value) : name(key), member(value) {}
@@ -22,10 +22,10 @@ struct Key {
   T Lines::*member;
 };
 
-/// The key that has the name of a member of the struct `Lines`.
+/// Makes the key that has the name of a member of the struct `Lines`.
 #define RECORD_KEY(member) Key(#member, &Lines::member)
 
-/// A struct with a static keys(): a tuple of Key, one for each member, in the order of the record.
+/// A struct with a static keys(): a tuple of Key, one per member, in the order of the record.
 template <typename T>
 concept HasRecordKeys = requires {
   T::keys();
@@ -40,7 +40,7 @@ struct WithoutOptional<std::optional<T>> {
   using Type = T;
 };
 
-/// Name of the key that a member stands for.
+/// Returns the key of a member.
 template <typename Lines, typename T>
 const char* key_of(T Lines::*member) {
   const char* name = nullptr;
@@ -54,10 +54,11 @@ const char* key_of(T Lines::*member) {
   return name;
 }
 
-/// The lines as they are written. An optional member without a value is left out.
+/// Returns the lines as they are written. Optional members without a value are left out.
 template <HasRecordKeys Lines>
 Value::Map record_lines(const Lines& lines);
 
+/// Converts a value, a struct with keys, or a list to a Value.
 template <typename T>
 Value record_value(const T& value) {
   if constexpr (HasRecordKeys<T>) {
@@ -87,8 +88,8 @@ Value::Map record_lines(const Lines& lines) {
   return map;
 }
 
-/// One map of a record whose keys are those of `Lines`. Values are looked up one by one, because an older record may
-/// lack some.
+/// A map of a record whose keys are those of `Lines`. Values are looked up one by one, because records of earlier
+/// versions may lack some.
 template <HasRecordKeys Lines>
 class RecordLines {
   template <typename T>
@@ -100,12 +101,14 @@ class RecordLines {
  public:
   explicit RecordLines(Record record) : record_(std::move(record)) {}
 
+  /// Returns whether the key exists.
   const Record& record() const { return record_; }
   template <typename T>
   bool has(T Lines::*member) const {
     return record_.has(key_of(member));
   }
-  /// Absent: nullopt. \throw DataError naming file and key if the value is of another type
+  /// Returns a value; nothing if the key is absent.
+  /// \throw DataError naming file and key if the value has another type
   template <typename T>
   std::optional<Held<T>> find(T Lines::*member) const {
     const char* key = key_of(member);
@@ -123,14 +126,17 @@ class RecordLines {
       return Held<T>(numbers->data());
     }
   }
-  /// \throw DataError naming file and key if the value is absent or of another type
+  /// Returns a value that must be present.
+  /// \throw DataError naming file and key if it is absent or has another type
   template <typename T>
   Held<T> required(T Lines::*member) const {
     auto value = find(member);
     if (!value) record_.required_text(key_of(member));  // throws
     return *value;
   }
-  /// All lines; an optional one may be absent. \pre no member is a map or a list of maps \throw DataError as `required`
+  /// Returns all lines; optional ones may be absent.
+  /// \pre no member is a map or a list of maps
+  /// \throw DataError as required()
   Lines all() const {
     Lines lines;
     const auto read = [&](const auto& key) {
@@ -143,15 +149,18 @@ class RecordLines {
     std::apply([&](const auto&... keys) { (read(keys), ...); }, Lines::keys());
     return lines;
   }
-  /// A number of any type, also a negative whole number. \throw DataError as `required`
+  /// Returns a number of any type, including negative whole numbers.
+  /// \throw DataError as required()
   template <typename T>
   double number(T Lines::*member) const {
     return record_.required_number(key_of(member));
   }
+  /// Returns the map at a key.
   template <typename T>
   RecordLines<Held<T>> section(T Lines::*member) const {
     return RecordLines<Held<T>>(record_.section(key_of(member)));
   }
+  /// Returns the maps of a list.
   template <typename T>
   std::vector<RecordLines<T>> sections(std::vector<T> Lines::*member) const {
     std::vector<RecordLines<T>> lines;
@@ -163,7 +172,7 @@ class RecordLines {
   Record record_;
 };
 
-/// The summary of a stage's record.
+/// Returns the summary of a stage's record.
 template <HasRecordKeys Summary>
 RecordLines<Summary> summary_of(const Record& record) {
   return RecordLines<Summary>(record.section("summary"));

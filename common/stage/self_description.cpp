@@ -12,13 +12,13 @@
 namespace tacipc {
 namespace {
 
-/// Thrown while flags are parsed: a question that needs none of the program's other flags. The text goes to standard
+/// Thrown while flags are parsed, for a request that needs none of the program's other flags. The text goes to standard
 /// output, and the program ends with 0.
 struct Answer {
   std::string text;
 };
 
-/// The kind of argument, without what CLI11 adds on how it is checked; the words of a choice stay.
+/// Returns the kind of argument, without CLI11's description of its check; the words of a choice stay.
 std::string argument_of(const CLI::Option& option) {
   if (option.get_type_size_max() == 0) return "";
   const std::string type = option.get_type_name();
@@ -26,7 +26,7 @@ std::string argument_of(const CLI::Option& option) {
   return choice == std::string::npos ? type.substr(0, type.find(':')) : type.substr(choice + 1);
 }
 
-/// The options as --help lists them, which are all but the hidden ones.
+/// Returns the options that --help lists: all but the hidden ones.
 std::vector<ManOption> man_options(const CLI::App& app) {
   std::vector<ManOption> options;
   for (const CLI::Option* option : app.get_options([](const CLI::Option* o) { return !o->get_group().empty(); })) {

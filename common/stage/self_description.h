@@ -1,4 +1,4 @@
-// What a program says of itself to the front door tacipc and for its manual page.
+// A program's description of itself, for the program tacipc and for its manual page.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,12 +10,14 @@
 
 namespace tacipc {
 
-/// Hidden flags: `--summary` answers with the program's description, `--help-man` with its manual page, which ends with
-/// `sections`. \pre all options and subcommands are there when flags are parsed; `app` outlives that
+/// Adds two hidden flags: `--summary` prints the program's description, `--help-man` its manual page, which ends with
+/// `sections`.
+/// \pre all options and subcommands exist when flags are parsed; `app` outlives that
 void add_answers(CLI::App& app, std::vector<ManSection> sections);
 
-/// Parses the flags. Returns an exit code if the program ends here: its answer is printed, or a flag is wrong; the
-/// message then points to `help`.
+/// Parses the flags.
+/// \param help command that error messages recommend
+/// \return an exit code if the program ends here, because it printed a description or a flag is wrong
 std::optional<int> parse_flags(CLI::App& app, int argc, char** argv, const std::string& help);
 
 }  // namespace tacipc

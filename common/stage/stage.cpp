@@ -21,15 +21,15 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kOutOfMemory = "out of memory";
-// Hidden, so that no output can have its name.
-constexpr const char* kReplacing = ".replacing-";  // with the stage's name: files that may be there without a record
+// Hidden name, so that no output can have it.
+constexpr const char* kReplacing = ".replacing-";  // prefix of a list of files that may lack a record
 
 void remove_quietly(const fs::path& path) {
   std::error_code ignored;
   fs::remove_all(path, ignored);
 }
 
-/// As seen from the output folder, so that a moved or second copy of everything gives the same record.
+/// Returns a path relative to the output folder, so that a moved or second copy of everything gives the same record.
 /// \throw UsageError for a name that a record, which is UTF-8, cannot hold
 std::string relative_to(const fs::path& path, const fs::path& folder) {
   std::error_code error;
@@ -39,9 +39,9 @@ std::string relative_to(const fs::path& path, const fs::path& folder) {
   return name;
 }
 
-/// What an error says, with the path first where the file system is to blame.
+/// Returns an error's message, with the path first if the file system is the cause.
 std::string reason_of(const std::exception& error) {
-  // oneTBB's words where it gets no memory for a thread, or is allowed no more of them.
+  // oneTBB's message if it gets no memory for a thread, or no further thread is allowed.
   if (std::string_view(error.what()).starts_with("pthread_create has failed"))
     return fmt::format("{}: a thread cannot be started ({})", kOutOfMemory, error.what());
   const auto* of_files = dynamic_cast<const fs::filesystem_error*>(&error);
@@ -162,7 +162,7 @@ std::set<std::string> Stage::old_outputs() const {
     try {
       for (std::string& name : ConfigReader::from_file(record).section("outputs").keys()) names.insert(std::move(name));
     } catch (const std::exception&) {
-      // Not a record of ours; nothing of it can be told from the user's own files.
+      // Not a record of this project; its files cannot be distinguished from the user's own.
     }
   }
   if (const fs::path list = out_ / (kReplacing + spec_.name); fs::exists(list, error)) {
@@ -177,7 +177,7 @@ void Stage::remove_output(const std::string& name) const {
   if (path.is_absolute() || *path.begin() == "..") return;
   remove_quietly(out_ / path);
   std::error_code ignored;
-  // Its folders, as far as they are empty now.
+  // Also remove its folders that are empty now.
   for (fs::path folder = path.parent_path(); !folder.empty() && fs::remove(out_ / folder, ignored);)
     folder = folder.parent_path();
 }
@@ -187,11 +187,11 @@ void Stage::remove_old_results() const {
   const fs::path record = out_ / (spec_.name + ".yaml");
   std::error_code error;
   if (!fs::exists(record, error)) return;
-  // The record goes first: what it lists may then be missing without anyone taking it for complete.
+  // The record goes first: outputs that it lists may then be missing without being taken for complete.
   const std::set<std::string> names = old_outputs();
   fs::remove(record, error);
   if (error) throw DataError("{}: cannot be removed: {}", record.string(), error.message());
-  // Those of parts go next, for the same reason.
+  // Records of parts go next, for the same reason.
   const std::string of_part = "/" + spec_.name + ".yaml";
   for (const std::string& name : names) {
     if (name.ends_with(of_part)) remove_output(name);
@@ -200,8 +200,8 @@ void Stage::remove_old_results() const {
 }
 
 void Stage::retire_old_record() {
-  // Which files are of old and new runs must outlive the records, or what a run that is killed now leaves beside the
-  // next one's outputs could not be told from a user's own.
+  // The list of old and new files must outlive the records. Otherwise files that a killed run leaves could not be
+  // distinguished from a user's own next to the outputs of the next run.
   std::set<std::string> names = old_outputs();
   for (const Output& output : outputs_) names.insert(output.name);
   std::string list;
@@ -268,8 +268,8 @@ void Stage::begin() {
 }
 
 void Stage::publish() {
-  // All that needs room on the disk comes first: what follows removes and renames.
-  refuse_changed_inputs();  // a record must name what was really read
+  // Everything that needs disk space comes first; the steps after that only remove and rename.
+  refuse_changed_inputs();  // a record must name the inputs that were really read
   const std::string text = record_of(inputs_at_start_.value(), "", summary_);
   const fs::path record_name = spec_.name + ".yaml", timings_name = spec_.name + ".timings.yaml";
   write_file(partial_path(record_name), text);
@@ -284,8 +284,8 @@ void Stage::publish() {
   flush_to_disk(written);
   std::set<std::string> leftovers;
   if (spec_.keeps_old_until_done) {
-    // Without a record from here to the end, so that a mixture of old and new never counts. Files that both have are
-    // never missing; those of the old alone go when the new ones are in place.
+    // From here to the end there is no record, so that a mixture of old and new files never counts. Files of both runs
+    // are never missing; files of the old run alone are removed once the new ones are in place.
     retire_old_record();
     leftovers = old_outputs();
   }
@@ -296,7 +296,7 @@ void Stage::publish() {
   }
   for (const std::string& name : leftovers) remove_output(name);
   fs::rename(partial_ / timings_name, out_ / timings_name);
-  // On the disk, too, the record comes last, and before what a later stage does because of it (drop removes samples).
+  // The record also reaches the disk last, and before a later stage acts on it (drop removes samples).
   flush_to_disk({folders.begin(), folders.end()});
   for (const std::string& part : parts_) fs::rename(partial_ / part, out_ / part);
   if (!parts_.empty()) flush_to_disk({folders.begin(), folders.end()});
@@ -309,12 +309,12 @@ void Stage::clean_up(int code) noexcept {
   try {
     if (code != 0 && !spec_.keeps_old_until_done) remove_quietly(out_ / (spec_.name + ".yaml"));
     if (code == 1 && spec_.resumable) {
-      // Without the hashes the stage has not begun, and what an earlier run left may still be good.
+      // Without the hashes the stage has not begun, and results of an earlier run may still be valid.
       if (!inputs_at_start_) return;
       if (keep_scratch_alone()) return;
     }
   } catch (const std::exception&) {
-    // An input cannot be read any more: what was made of it cannot be trusted.
+    // An input can no longer be read, so that results from it cannot be trusted.
   }
   remove_quietly(partial_);
 }

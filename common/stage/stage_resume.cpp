@@ -1,4 +1,4 @@
-// Earlier runs of the same: whether one is done already, and the scratch files that an interrupted one left.
+// Earlier runs with equal inputs: detects a finished one, and keeps the scratch files of an interrupted one.
 #include <algorithm>
 #include <system_error>
 
@@ -15,7 +15,7 @@ namespace tacipc {
 namespace fs = std::filesystem;
 namespace {
 
-// Hidden, so that no output can have their names.
+// Hidden names, so that no output can have them.
 constexpr const char* kScratchFolder = ".scratch";
 constexpr const char* kResumeKey = ".resume-key";
 
@@ -89,7 +89,7 @@ void Stage::open_scratch() const {
   }
   std::error_code error;
   fs::remove_all(partial_, error);
-  // A new key beside old files would pass them off as its own.
+  // A new key next to old files would present them as its own.
   if (error) throw DataError("{}: cannot be removed: {}", partial_.string(), error.message());
   write_checked_file(partial_ / kResumeKey, key);
 }

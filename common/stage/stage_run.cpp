@@ -1,4 +1,4 @@
-// Flags, lock, log and exit code: what happens around a stage's life.
+// run_stage(): flags, lock, log and exit code around a stage's run.
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <sys/file.h>
@@ -30,7 +30,7 @@ namespace tacipc {
 namespace fs = std::filesystem;
 namespace {
 
-/// Keeps two processes from writing one folder: a stage whose make was killed may still run when the next begins.
+/// Keeps two processes from writing one folder: after its make was killed, a stage may still run when the next begins.
 class FolderLock {
  public:
   explicit FolderLock(const fs::path& path) : file_(::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666)) {
@@ -49,7 +49,7 @@ class FolderLock {
   int file_;
 };
 
-/// A stage is called through tacipc, as a shell takes the name of one for its own command: export.
+/// Usage text that calls a stage through tacipc, because shells have a command of the same name as one stage: export.
 class UsageThroughTacipc : public CLI::Formatter {
  public:
   std::string make_usage(const CLI::App* app, std::string name) const override {
@@ -64,11 +64,11 @@ NamedPath split_named_path(const std::string& text) {
   return {.name = text.substr(0, at), .path = text.substr(at + 1)};
 }
 
-/// What is wrong with the path of an input, empty if nothing is.
+/// Returns the problem with the path of an input; empty if there is none.
 std::string fault_of_path(std::string& path) {
   std::string fault = CLI::ExistingPath(path);
   if (!fault.empty()) return fault;
-  // Whoever reads a pipe waits until somebody writes into it.
+  // Reading a pipe would wait until another process writes to it.
   const auto has_content = [](fs::file_type type) {
     return type == fs::file_type::regular || type == fs::file_type::directory;
   };
@@ -85,7 +85,7 @@ std::string fault_of_path(std::string& path) {
   return fault;
 }
 
-/// What is wrong with a NAME=PATH, empty if nothing is.
+/// Returns the problem with a NAME=PATH; empty if there is none.
 std::string fault_of_named_path(const std::string& text) {
   const auto [name, path] = split_named_path(text);
   if (name.empty()) return fmt::format("'{}' is not NAME=PATH", text);
@@ -93,7 +93,7 @@ std::string fault_of_named_path(const std::string& text) {
   return fault_of_path(given);
 }
 
-/// Behind the flags on a stage's manual page.
+/// Returns the sections after the flags on a stage's manual page.
 std::vector<ManSection> manual_sections(const std::string& stage) {
   return {
       {.title = "FILES",
@@ -113,7 +113,7 @@ int run_stage(const StageSpec& spec, int argc, char** argv, const std::function<
     leave_blas_threads(argv);
     return Stage::run_here(spec, argc, argv, body);
   } catch (const std::bad_alloc&) {
-    // Before the work began or after it: the work's own errors are its life's business (Stage::run).
+    // Reached before the work began or after it; Stage::run() handles errors of the work itself.
     std::fputs((spec.name + ": error: out of memory\n").c_str(), stderr);
     return 1;
   }
@@ -158,14 +158,14 @@ int Stage::run_here(const StageSpec& spec, int argc, char** argv, const std::fun
   add_answers(app, manual_sections(spec.name));
   if (const auto code = parse_flags(app, argc, argv, fmt::format("tacipc {} --help", spec.name))) return *code;
 
-  // A file-size limit must end in a message like a full disk does, not in a signal.
+  // A file-size limit must end in a message, as a full disk does, not in a signal.
   std::signal(SIGXFSZ, SIG_IGN);
   open_log(spec.name, level);
   std::function<void(Stage&)> work = body;
   if (spec.works_in_child) {
     if (const auto end = continue_in_child()) {
       if (end->crash.empty()) return end->code;
-      work = [crash = end->crash](Stage&) { throw DataError(crash); };  // cleans up and says so
+      work = [crash = end->crash](Stage&) { throw DataError(crash); };  // cleans up and reports the crash
     }
   }
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));

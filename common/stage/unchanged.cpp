@@ -16,7 +16,7 @@ bool is_unchanged(const fs::path& path) {
   const fs::path folder = path.parent_path();
   try {
     const Record record = Record::from_file(path), inputs = record.section("inputs");
-    std::set<fs::path> own{path};  // which a folder that it read may hold by now
+    std::set<fs::path> own{path};  // own files, which an input folder may contain by now
     for (const std::string& name : record.section("outputs").keys()) {
       if (!fs::exists(folder / name)) return false;
       own.insert(folder / name);
@@ -28,7 +28,7 @@ bool is_unchanged(const fs::path& path) {
       }
     return true;
   } catch (const std::exception&) {
-    return false;  // what cannot be read, or is no record, is made again
+    return false;  // unreadable files and files that are no records are made again
   }
 }
 

@@ -1,12 +1,12 @@
-// Whether a finished stage would find again what it found.
+// Checks whether a finished stage's inputs and outputs are unchanged.
 #pragma once
 
 #include <filesystem>
 
 namespace tacipc {
 
-/// True if every input that a record names has the content it had, whatever its date, and every output is there. False
-/// where there is no record, or none that can be read.
+/// Returns whether every input that a record names has the same content, whatever its date, and every output exists.
+/// False if there is no readable record.
 bool is_unchanged(const std::filesystem::path& record);
 
 }  // namespace tacipc

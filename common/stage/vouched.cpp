@@ -14,7 +14,7 @@ namespace tacipc {
 namespace fs = std::filesystem;
 namespace {
 
-/// A record is called like its stage, which its first line names.
+/// Returns whether a file is a record: it is named after its stage, which its first line states.
 bool is_record(const fs::path& path) {
   if (path.extension() != ".yaml") return false;
   std::ifstream file(path);
@@ -24,10 +24,10 @@ bool is_record(const fs::path& path) {
 
 std::vector<fs::path> records_in(const fs::path& folder) {
   std::vector<fs::path> records;
-  std::error_code error;  // of a folder above, which need not be readable
+  std::error_code error;  // error at a parent folder, which need not be readable
   for (const auto& entry : fs::directory_iterator(folder, error))
     if (is_record(entry.path())) records.push_back(entry.path());
-  std::ranges::sort(records);  // the same message in every run
+  std::ranges::sort(records);  // gives the same message in every run
   return records;
 }
 
@@ -40,7 +40,7 @@ bool lies_in(const fs::path& file, const fs::path& folder) {
 void refuse_changed_outputs(const fs::path& input, const fs::path& but) {
   std::error_code error;
   const fs::path whole = fs::canonical(input, error);
-  if (error || is_record(whole)) return;  // reading it says more; nothing vouches for a record
+  if (error || is_record(whole)) return;  // the reader reports errors better; no record lists a record
   const fs::path own = fs::weakly_canonical(but, error);
   const fs::path folder = fs::is_directory(whole) ? whole : whole.parent_path();
   std::vector<fs::path> records = records_in(folder);

@@ -13,7 +13,7 @@
 namespace tacipc {
 namespace {
 
-// Of the inverse kinematics: how near is near enough, and how hard a singular direction is held back.
+// Inverse kinematics: iterations, tolerance, damping at singular directions; largest errors of a reached target.
 constexpr int kMostIterations = 30;
 constexpr double kNear = 1e-9, kDamping = 1e-4;
 constexpr double kReached_m = 1e-4, kReached_rad = 1e-2;
@@ -57,7 +57,7 @@ void Controller::begin_step(double time_s) {
   if (done()) return;
   const TaskStep& step = task_.steps[step_];
   if (step.site.empty()) return;
-  // From where it is told to be, not from where its weight has it.
+  // Start from the commanded pose, not from the pose under the arm's weight.
   std::copy(start_qpos_.begin(), start_qpos_.end(), plan_->qpos);
   set_servos(*plan_);
   mj_kinematics(&m, plan_.get());
@@ -92,8 +92,8 @@ void Controller::act(const std::vector<double>& pads) {
   while (!done()) {
     const TaskStep& step = task_.steps[step_];
     const double elapsed = d.time - started_s_;
-    // The last control of a step that is over stays: its end, or where its condition was met. Times add up with
-    // rounding.
+    // The last control of a finished step stays: its end, or where its condition was met. The tolerance covers rounding
+    // of summed times.
     const bool at_end = elapsed >= step.seconds - 1e-9, early = !at_end && over(step, pads);
     if (!early) {
       const double part = at_end ? 1.0 : std::max(0.0, elapsed / step.seconds);
@@ -118,7 +118,7 @@ void Controller::follow(const TaskStep& step, double part, double elapsed_s) {
   Vector3 by = step.to_m ? Vector3(*step.to_m - start_site_.topRightCorner<3, 1>()) : step.by_m;
   by *= part;
   if (step.frequency_hz > 0.0) {
-    // Whole periods, so that it ends at rest.
+    // Whole periods, so that the motion ends at rest.
     const double periods = std::max(1.0, std::round(step.frequency_hz * step.seconds));
     by = 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * periods * elapsed_s / step.seconds)) * step.shake_m;
   }

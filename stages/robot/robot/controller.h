@@ -1,4 +1,4 @@
-// What a robot is told in each of its time steps.
+// Controller: turns the steps of a robot's task into actuator controls, time step by time step.
 #pragma once
 
 #include <memory>
@@ -8,21 +8,27 @@
 
 namespace tacipc {
 
-/// Goes through the steps of a task: sets the controls of actuators. Points of the robot are moved by inverse
+/// Carries out the steps of a task by setting actuator controls. A site of the robot follows its path by inverse
 /// kinematics (damped least squares) over the joints that position servos drive.
 class Controller {
  public:
-  /// \throw UsageError if a step names what the model does not have
+  /// Starts at the first step.
+  /// \throw UsageError if a step names an actuator or site that the model lacks
   Controller(const TaskSpec& task, RobotModel& robot);
 
-  /// At the start, or what state() was at a later time.
+  /// Resumes from a state that state() returned earlier.
+  /// \throw DataError if the state's size does not fit the model
   void restore(const std::vector<double>& state);
+  /// Returns everything that later steps depend on: index and start of the current step, force limits of all actuators.
   std::vector<double> state() const;
 
-  /// Sets the controls for the time of the model's data. \param pads forces on the pads, N, as they are felt now
+  /// Sets the controls for the current time of the model's data, and begins further steps as earlier ones end.
+  /// \param pads magnitude of the force on each pad, N
+  /// \throw DataError if a site cannot reach its target
   void act(const std::vector<double>& pads);
-  /// Whether all steps are over.
+  /// Returns whether all steps are over.
   bool done() const { return step_ >= task_.steps.size(); }
+  /// Returns the index of the current step; the number of steps once all are over.
   std::size_t step() const { return step_; }
 
  private:
@@ -38,12 +44,12 @@ class Controller {
 
   const TaskSpec& task_;
   RobotModel& robot_;
-  std::vector<Servo> servos_;  // position servos on single joints
-  std::unique_ptr<mjData, ModelFree> plan_;
-  // What a step goes on from.
+  std::vector<Servo> servos_;                // position servos that each drive a single joint
+  std::unique_ptr<mjData, ModelFree> plan_;  // scratch data for inverse kinematics
+  // State at the beginning of the current step.
   std::size_t step_ = 0;
   double started_s_ = 0.0;
-  std::vector<double> start_control_, start_qpos_, start_limit_;  // of forces: 0 where there is none
+  std::vector<double> start_control_, start_qpos_, start_limit_;  // start_limit_: largest force, 0 if unlimited
   Matrix4 start_site_ = Matrix4::Identity();
 };
 

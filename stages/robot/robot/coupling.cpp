@@ -10,10 +10,10 @@ namespace {
 
 constexpr double kTorqueArm_m = 0.01;
 constexpr double kTangentialShare = 0.5;
-// Shorter ways are rounding, compared with how exactly a press knows its forces.
+// Shorter displacements are rounding, compared with the accuracy of a press's forces.
 constexpr double kShortestWay_m = 1e-7;
 constexpr double kMostSecant = 5.0, kMostSliding = 100.0;
-// Of balanced_forces: to tell how a robot gives way, and how a law changes; when both agree.
+// balanced_forces(): finite-difference steps for the robot's compliance and the law's slope, and tolerances.
 constexpr double kProbe_n = 0.1, kProbe_m = 1e-8, kNear_n = 1e-9, kNearRobot = 1e-6;
 constexpr int kMostRounds = 15, kMostNewton = 40;
 
@@ -111,7 +111,7 @@ Eigen::VectorXd balanced_forces(const std::function<Eigen::VectorXd(const Eigen:
     compliance.col(i) = (end(more) - at) / kProbe_n;
   }
   for (int round = 0; round < kMostRounds; ++round) {
-    // On the linear model of the robot the law alone is to be met.
+    // Solve the law on the linear model of the robot.
     Eigen::VectorXd change = Eigen::VectorXd::Zero(n);
     for (int i = 0; i < kMostNewton; ++i) {
       const Eigen::VectorXd x = at + compliance * change, wanted = law(x), miss = wanted - force - change;
@@ -123,14 +123,14 @@ Eigen::VectorXd balanced_forces(const std::function<Eigen::VectorXd(const Eigen:
         slope.col(k) = (law(moved) - wanted) / kProbe_m;
       }
       const Eigen::MatrixXd system = Eigen::MatrixXd::Identity(n, n) - slope * compliance;
-      // Springs that only push may make full steps go to and fro between pressed and not pressed.
+      // Full steps may alternate between pressed and not pressed, because springs only push.
       change += (i < kMostNewton / 2 ? 1.0 : 0.5) * system.partialPivLu().solve(miss);
     }
     force += change;
     const Eigen::VectorXd before = at;
     at = end(force);
     if ((law(at) - force).norm() <= kNearRobot * (kNear_n + force.norm())) break;
-    // Where a drive reaches its limit or a joint its stop the robot gives way differently from there on (Broyden).
+    // Where a drive reaches its limit or a joint its stop, the robot's compliance changes (Broyden).
     if (const double squared = change.squaredNorm(); squared > 0.0)
       compliance += (at - before - compliance * change) * change.transpose() / squared;
   }

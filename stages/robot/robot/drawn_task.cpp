@@ -50,7 +50,7 @@ DrawnTask draw_task(const std::filesystem::path& file, std::uint64_t seed) {
     const std::string name = task.text.substr(i + 1, end - i - 1);
     const auto found = std::find_if(task.variables.begin(), task.variables.end(),
                                     [&](const auto& variable) { return variable.first == name; });
-    // A name that is no variable stays, and whoever expects a number there says so with its place.
+    // An unknown name stays in the text; the reader that expects a number there reports it with its location.
     text += found == task.variables.end() ? "$" + name : fmt::format("{}", found->second);
     i = end;
   }

@@ -46,8 +46,8 @@ T whole_number(const tacipc::Stage& stage, const std::string& flag) {
   return number;
 }
 
-/// The files that a model's elements name, in MJCF from the model's own folder or the one of its assets, and those that
-/// they include.
+/// Collects the files that a model names, relative to the model's folder or its asset folder, and recursively those of
+/// included models.
 void add_files_of(const std::filesystem::path& model, const std::filesystem::path& file,
                   std::vector<std::pair<std::string, std::filesystem::path>>& all) {
   static const std::regex kAssets(R"re((?:mesh|texture|asset)dir\s*=\s*["']([^"']+)["'])re"),

@@ -112,7 +112,7 @@ RobotModel::RobotModel(const TaskSpec& task, const std::vector<TaskObject>& obje
       }
     }
   }
-  // The home keyframe, where there is one, else the zero of all joints; objects stay where the task puts them.
+  // Use the home keyframe, if there is one, else zero for all joints; objects stay where the task puts them.
   mj_setConst(model_.get(), data_.get());
   mj_resetData(model_.get(), data_.get());
   if (m.nkey > 0) {
@@ -154,7 +154,7 @@ void RobotModel::give_mass(int body, const TaskObject& object) {
     m.body_ipos[3 * body + k] = mass.center_m[k];
   }
   to_wxyz(axes, m.body_iquat + 4 * body);
-  // What MuJoCo concluded from the frames that its own mass had, and takes short cuts by.
+  // Reset shortcuts that MuJoCo derived from the frames of the model's own masses.
   m.body_sameframe[body] = m.body_simple[body] = 0;
   for (int k = 0; k < m.body_geomnum[body]; ++k) m.geom_sameframe[m.body_geomadr[body] + k] = 0;
   for (int k = 0; k < m.nsite; ++k) {
@@ -162,7 +162,7 @@ void RobotModel::give_mass(int body, const TaskObject& object) {
   }
   const int first = m.jnt_dofadr[m.body_jntadr[body]];
   for (int k = 0; k < 6; ++k) m.dof_simplenum[first + k] = 0;
-  // Those before count how many follow.
+  // Earlier degrees of freedom count those that follow.
   for (int k = first - 1; k >= 0 && m.dof_simplenum[k] > 0; --k) m.dof_simplenum[k] = m.dof_simplenum[k + 1] + 1;
 }
 
@@ -175,7 +175,7 @@ void RobotModel::place(const ObjectSpec& spec, int body) {
   const auto pose_of = [](const mjtNum* p, const mjtNum* q) {
     return Eigen::Translation3d(p[0], p[1], p[2]) * quaternion_from(q).normalized();
   };
-  // A fixed body may hang in other fixed ones.
+  // A fixed body may be a child of other fixed bodies.
   Eigen::Isometry3d parent = Eigen::Isometry3d::Identity();
   for (int up = m.body_parentid[body]; spec.fixed && up > 0; up = m.body_parentid[up])
     parent = pose_of(m.body_pos + 3 * up, m.body_quat + 4 * up) * parent;
@@ -207,7 +207,7 @@ Matrix4 RobotModel::body_pose(int body) const { return pose_from(data_->xpos + 3
 
 Twist RobotModel::body_twist(int body) const {
   std::array<mjtNum, 6> twist{};
-  // At the frame's origin; angular velocity comes first.
+  // Velocity at the frame's origin; the angular velocity comes first.
   mj_objectVelocity(model_.get(), data_.get(), mjOBJ_XBODY, body, twist.data(), 0);
   return {Vector3(twist[3], twist[4], twist[5]), Vector3(twist[0], twist[1], twist[2])};
 }
@@ -237,7 +237,7 @@ void RobotModel::push_pad(std::size_t pad, const Wrench& wrench) {
 
 void RobotModel::forget_pushes() {
   mju_zero(data_->xfrc_applied, 6 * model_->nbody);
-  // Objects stay where they are put.
+  // Cancel the weight, so that objects stay where they are put.
   const bool weightless = (model_->opt.disableflags & mjDSBL_GRAVITY) != 0;
   for (std::size_t i = 0; i < task_.objects.size() && !weightless; ++i) {
     if (task_.objects[i].fixed) continue;

@@ -31,7 +31,7 @@ Value::List turn_deg(const Matrix4& pose) {
   return numbers(180.0 / std::numbers::pi * turn.angle() * turn.axis());
 }
 
-/// The frame after which a body is let go.
+/// Returns the frame after which a body is released.
 int held_frames(const TaskSpec& task, const ObjectSpec& object) {
   return static_cast<int>(std::ceil(std::min(1e9, object.held_s / task.frame_s - 1e-9)));
 }
@@ -85,10 +85,10 @@ std::string scene_text(const fs::path& folder, const TaskSpec& task, const std::
   return to_yaml(scene);
 }
 
-// A number that can be written and mixed: nothing is met within a metre.
+// Gap if no surface is within a metre: a finite number can be stored and interpolated.
 constexpr double kNowhere_m = 1.0;
 
-/// What of an object is in front of a pad.
+/// Returns the gap between a pad and one object.
 double gap_to(const TaskSpec& task, const std::vector<TaskObject>& objects, std::size_t pad,
               const Matrix4& world_from_gel, std::size_t object, const Matrix4& object_pose) {
   return gap_before(objects[object].mesh, world_from_gel.inverse() * object_pose, task.pads[pad].radius_m);
@@ -179,7 +179,7 @@ WindowAnswers read_answers(const fs::path& press, const TaskSpec& task, const st
     throw DataError("{}: has {} frames, and the window begins after frame {}", press.string(), scene.per_frame.size(),
                     first);
   const std::size_t count = scene.bodies.size();
-  // It is held in the steps that lead to the frames before.
+  // An object is held in the steps that lead to frames up to held_frames().
   const auto gives_way = [&](std::size_t o, std::size_t frame) {
     return !task.objects[o].fixed && static_cast<int>(frame) > held_frames(task, task.objects[o]);
   };
@@ -209,7 +209,7 @@ WindowAnswers read_answers(const fs::path& press, const TaskSpec& task, const st
         answer.wrench.force_n += scene.per_frame[f][gel * count + b].force_n;
         answer.wrench.torque_n_m += scene.per_frame[f][gel * count + b].torque_n_m;
       }
-      // Who presses the most, else who is nearest.
+      // Find the object that presses most, or the nearest one if none presses.
       double most = 0.0, nearest = kNowhere_m;
       for (std::size_t o = 0; o < task.objects.size(); ++o) {
         const double force = scene.per_frame[f][gel * count + number(task.objects[o].name)].force_n.norm();
@@ -220,7 +220,7 @@ WindowAnswers read_answers(const fs::path& press, const TaskSpec& task, const st
         }
         most = std::max(most, force), nearest = std::min(nearest, gap);
       }
-      // About the origin of S instead of the world's.
+      // Refer the torque to the origin of S instead of the world's.
       answer.wrench.torque_n_m -= Vector3(answer.world_from_gel.topRightCorner<3, 1>()).cross(answer.wrench.force_n);
       answer.gap_m = nearest;
       of_frame.push_back(answer);

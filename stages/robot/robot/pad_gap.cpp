@@ -8,7 +8,7 @@
 namespace tacipc {
 namespace {
 
-/// The part of a polygon on one side of a line: sign · p[axis] ≤ limit.
+/// Clips a polygon to one side of a line: sign · p[axis] ≤ limit.
 std::vector<Vector3> clipped(const std::vector<Vector3>& polygon, int axis, double sign, double limit) {
   std::vector<Vector3> kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -20,7 +20,7 @@ std::vector<Vector3> clipped(const std::vector<Vector3>& polygon, int axis, doub
   return kept;
 }
 
-// Of a facet's unit normal along the gel's axis: a floor beside the gel reaches behind its front.
+// Largest z component of a facet's unit normal in S: excludes a floor next to the gel that extends behind its front.
 constexpr double kLooksAt = -0.17;
 
 }  // namespace

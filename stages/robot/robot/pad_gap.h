@@ -1,4 +1,4 @@
-// How far something is in front of a gel.
+// Gap between a gel and the surface in front of it.
 #pragma once
 
 #include "common/base/types.h"
@@ -6,9 +6,9 @@
 
 namespace tacipc {
 
-/// The smallest z of the surface in the gel's frame S, of what lies in |x|, |y| ≤ radius and looks at the gel, more
-/// steeply than 10°: negative behind the undeformed front; +∞ where nothing is there. What is more than the radius
-/// behind the front is not in front of it.
+/// Returns the smallest z, in the gel's frame S, of the surface within |x|, |y| ≤ radius, m. Negative: the surface is
+/// behind the undeformed front; +∞: no surface there. Only facets that face the gel, more steeply than 10°, count, and
+/// nothing farther than the radius behind the front.
 double gap_before(const TriangleMesh& surface, const Matrix4& gel_from_surface, double radius_m);
 
 }  // namespace tacipc

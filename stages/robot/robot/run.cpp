@@ -15,7 +15,7 @@ namespace tacipc {
 namespace {
 
 using Pair = std::pair<std::string, std::string>;
-constexpr const char* kGel = "gel";  // what a pad touches by its gel, in the list of contacts
+constexpr const char* kGel = "gel";  // name of a gel's counterpart in the list of contacts
 
 class Runner {
  public:
@@ -51,8 +51,8 @@ class Runner {
     return finished();
   }
 
-  /// Between two frames the wrenches on the pads are constant: those that the press is to answer with where the
-  /// interval ends, as its own time step is an implicit one. What one side is pushed by, the other is pushed back by.
+  /// Runs one window. Between two frames the wrenches on the pads are constant: those that the press returns for the
+  /// end of the interval, because the press's time step is implicit. Both sides thus get opposite impulses.
   RobotRun window(const Window& window) {
     if (window.before) {
       run_ = *window.before;
@@ -98,7 +98,7 @@ class Runner {
         forces.segment<3>(static_cast<Eigen::Index>(3 * p)) = answer(window, frame, p).wrench.force_n;
     } else {
       forces = balanced_forces(end, law, forces);
-      // Where nothing touches, what is left of Newton's method is rounding.
+      // Without contact, the rest of Newton's method is rounding.
       const std::vector<Wrench> wrenches = answered(window, frame, end(forces));
       for (std::size_t p = 0; p < pads; ++p) {
         if (wrenches[p].force_n != Vector3::Zero()) continue;
@@ -120,7 +120,7 @@ class Runner {
     run_.finished = is_over();
   }
 
-  /// Whether the steps of the task are over now. The controls of this instant are the next time step's to give.
+  /// Returns whether the task's steps are over now, without setting controls, which belong to the next time step.
   bool is_over() {
     const std::vector<double> last = state();
     act();
@@ -135,7 +135,7 @@ class Runner {
     controller_.act(forces);
   }
 
-  /// One time step of the model.
+  /// Advances the model by one time step.
   void advance() {
     const double time_s = robot_.data().time;
     mj_step1(&robot_.model(), &robot_.data());
@@ -176,8 +176,9 @@ class Runner {
     return all;
   }
 
-  /// By the answers of an earlier try. An object that floats goes on as the frames before have moved it away from where
-  /// it was in them; one that something else holds is back there.
+  /// Evaluates the surrogate law with the responses to an earlier iteration. A floating object continues the
+  /// displacement from its pose in the responses that it had in the frames before; an object held by others returns to
+  /// that pose.
   FeltWrenches felt_at(const Window& window, int frame, const Eigen::VectorXd& at) const {
     const WindowAnswers& answers = *window.answers;
     const std::size_t f = index_of(window, frame);
@@ -187,12 +188,12 @@ class Runner {
     return felt_wrenches(answers.frames[f], origins_in(at), answers.stiffness_n_m[f], answers.inertia_n_m, expected);
   }
 
-  /// What the gels would answer with their origins at these places at the end of a frame of the window.
+  /// Returns the wrenches of the gels with their origins at these positions at the end of a frame of the window.
   std::vector<Wrench> answered(const Window& window, int frame, const Eigen::VectorXd& at) const {
     if (window.answers) return felt_at(window, frame, at).wrenches;
     std::vector<Wrench> wrenches;
     const std::vector<Vector3> origins = origins_in(at);
-    // What is held goes with the hand: its mean way is no way further in. A single pad has nothing to hold against.
+    // A held object moves with the hand: the pads' mean displacement adds no compression. A single pad holds nothing.
     Vector3 mean = Vector3::Zero();
     for (std::size_t p = 0; felt_.size() > 1 && p < felt_.size(); ++p)
       mean +=
@@ -216,7 +217,7 @@ class Runner {
     }
   }
 
-  /// A frame where one is due, and what has begun or ended to touch.
+  /// Records a frame, if one is due, and contacts that began or ended.
   void note(int n) {
     const mjModel& m = robot_.model();
     const mjData& d = robot_.data();
@@ -236,7 +237,7 @@ class Runner {
     }
     touching_ = std::move(now);
     if (n % per_frame_ != 0) return;
-    // Times of frames are their numbers': those of the model add up with rounding.
+    // Times of frames are multiples of frame_s, because summed times of the model accumulate rounding.
     RobotFrame frame;
     const int number = n / per_frame_;
     frame.time_s = number * task_.frame_s;
@@ -261,7 +262,7 @@ class Runner {
     const auto add = [&](const mjtNum* values, int count) { all.insert(all.end(), values, values + count); };
     add(d.qpos, m.nq), add(d.qvel, m.nv), add(d.act, m.na), add(d.qacc_warmstart, m.nv), add(d.ctrl, m.nu);
     add(d.mocap_pos, 3 * m.nmocap), add(d.mocap_quat, 4 * m.nmocap);
-    add(d.actuator_force, m.nu);  // what the frame at this instant is to show
+    add(d.actuator_force, m.nu);  // shown in the frame at this instant
     const std::vector<double> control = controller_.state();
     all.insert(all.end(), control.begin(), control.end());
     return all;
@@ -292,8 +293,8 @@ class Runner {
   Controller controller_;
   RobotRun run_;
   std::set<Pair> touching_;
-  std::vector<Wrench> felt_;  // of each pad, now
-  // By how much each object is away from where the last answers had it, at the last two frames of the window.
+  std::vector<Wrench> felt_;  // current wrench on each pad
+  // Displacement of each object from its pose in the last responses, at the last two frames of the window.
   std::vector<Vector3> along_, along_before_;
   int per_frame_ = 1;
 };
@@ -315,7 +316,7 @@ TryJudgement judge_try(const TaskSpec& task, const RobotRun& tried, std::size_t 
   std::vector<PadAnswer> all;
   for (std::size_t f = 0; f < answers.frames.size(); ++f) {
     all.insert(all.end(), answers.frames[f].begin(), answers.frames[f].end());
-    // Where the window begins both are as they were.
+    // The first instant of the window is given.
     for (std::size_t p = 0; f > 0 && p < task.pads.size(); ++p) {
       felt.push_back(tried.frames[first + f].pad_wrench[p]);
       answered.push_back(answers.frames[f][p].wrench);
@@ -331,7 +332,7 @@ TryJudgement judge_try(const TaskSpec& task, const RobotRun& tried, std::size_t 
 }
 
 double position_residual_m(const RobotRun& run, std::size_t first, const WindowAnswers& answers) {
-  constexpr double kArm_m = 0.01;  // at which a turn counts
+  constexpr double kArm_m = 0.01;  // arm on which a rotation counts
   if (run.frames.size() != first + answers.frames.size()) return std::numeric_limits<double>::infinity();
   double farthest = 0.0;
   for (std::size_t f = 1; f < answers.frames.size(); ++f) {

@@ -10,7 +10,7 @@ namespace {
 constexpr int kAround = 24, kRings = 6;  // facets of round shapes
 constexpr int kFirstHiddenGroup = 3;
 
-/// Points of one shape in its own frame, and triangles that look outwards.
+/// Points of one shape in its own frame, and triangles that face outwards.
 struct Facets {
   std::vector<Vector3> points;
   std::vector<Eigen::Vector3i> triangles;
@@ -28,7 +28,7 @@ Facets box(const Vector3& half) {
   return all;
 }
 
-/// A surface of revolution about z through rings of (radius, z), from bottom to top.
+/// Returns a surface of revolution about z through rings of (radius, z), from bottom to top.
 Facets turned(const std::vector<Eigen::Vector2d>& rings) {
   Facets all;
   for (const Eigen::Vector2d& ring : rings) {

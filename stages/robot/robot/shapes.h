@@ -1,4 +1,4 @@
-// The geoms of a model as triangles, for pictures.
+// Converts the geoms of a MuJoCo model to triangles, for pictures.
 #pragma once
 
 #include "common/mesh/triangle_mesh.h"
@@ -6,8 +6,8 @@
 
 namespace tacipc {
 
-/// All geoms of a body in its own frame: primitives in facets, meshes as they are. Planes and height fields, and geoms
-/// of groups that MuJoCo's viewer hides (3 and above), have none.
+/// Returns all geoms of a body as one mesh in the body's frame, m: facets for primitives, meshes unchanged. Left out:
+/// planes, height fields, and geoms of groups that MuJoCo's viewer hides (3 and above).
 TriangleMesh shape_of_body(const mjModel& model, int body);
 
 }  // namespace tacipc

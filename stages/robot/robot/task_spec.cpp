@@ -85,7 +85,7 @@ TaskStep read_step(ConfigReader& in, const std::vector<PadSpec>& pads) {
 TaskSpec TaskSpec::read(ConfigReader& in) {
   const std::filesystem::path folder = std::filesystem::path(in.source()).parent_path();
   TaskSpec task;
-  in.ignore("variables");  // drawn before
+  in.ignore("variables");  // replaced by values before
   task.model = folder / in.text("model");
   task.frame_s = in.number_or("frame_s", task.frame_s, Range{.low = 0.0, .high = 1.0, .open_low = true});
   task.start = named_numbers(in, "start", Range::any());
