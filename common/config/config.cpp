@@ -114,7 +114,7 @@ struct UnitBound {
 constexpr UnitBound kUnitBounds[] = {{"_mm", 1e4}, {"_um", 1e7},    {"_px", 1e5},   {"_deg", 3.6e4},
                                      {"_s", 1e9},  {"_n", 1e6},     {"_pa", 1e13},  {"_g", 1e6},
                                      {"_kg", 1e3}, {"_kg_m3", 1e7}, {"_m_s2", 1e4}, {"_hz", 1e6}};
-constexpr double kLargest = 1e15;  // bound for keys without these units
+constexpr double kLargest = 1e16;  // of numbers without one of these units, such as seeds up to 2^53
 
 double largest_of(std::string_view key) {
   key = key.substr(0, key.find('['));  // key of the list, for an item
