@@ -1,4 +1,4 @@
-// configs/objects/decimate/*.yaml
+// Content of configs/objects/decimate/*.yaml.
 #pragma once
 
 #include "common/config/config.h"

@@ -1,4 +1,4 @@
-// Which triangles meet at which edges and vertices, from indices alone.
+// Adjacency of triangles at edges and vertices, from indices alone.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct EdgeUse {
   int half_edge;
 };
 
-/// All half edges, those of one edge side by side, in ascending order of vertices and half edges.
+/// All half edges; those of one edge are adjacent, in ascending order of vertices and half edges.
 std::vector<EdgeUse> edge_uses(const Triangles& triangles);
 
 /// Calls visit(uses) with the uses of each edge.
@@ -36,11 +36,11 @@ void for_each_edge(std::span<const EdgeUse> uses, Visit&& visit) {
 
 /// Marks a half edge whose edge belongs to no other face.
 inline constexpr int kOpen = -1;
-/// Makes each the other's opposite.
+/// Makes two half edges each other's opposite.
 void pair_up(int a, int b, std::vector<int>& opposite);
 
-/// For each half edge the other one of its edge, or kOpen; the two may run the same way where faces disagree about the
-/// outside. \throw DataError where more than two faces share an edge, with the place.
+/// Opposite half edge of each half edge, or kOpen. The two may run the same way where faces disagree about the outside.
+/// \throw DataError, with the position, if more than two faces share an edge
 std::vector<int> opposite_half_edges(const TriangleMesh& mesh);
 
 struct Components {
@@ -50,7 +50,7 @@ struct Components {
 /// Faces connected through edges; numbered in the order of their first faces.
 Components connected_components(const Triangles& triangles, const std::vector<int>& opposite);
 
-/// Adds these faces behind the others.
+/// Appends faces to the mesh.
 void append_faces(TriangleMesh& mesh, const std::vector<std::array<int, 3>>& faces);
 
 /// Keeps the faces marked true, in order.
