@@ -1,4 +1,4 @@
-// The arrays that track writes.
+// Arrays that track writes.
 #pragma once
 
 #include "common/format/npy_field.h"
@@ -16,7 +16,7 @@ inline const NpyField& marker_track_field() {
   return kField;
 }
 
-/// Numbers of TrackQuality.
+/// Values of TrackQuality.
 inline const NpyField& marker_quality_field() {
   static const NpyField kField{.file = "marker_quality.npy",
                                .type = NpyType::u1,
