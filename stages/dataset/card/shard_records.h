@@ -29,7 +29,7 @@ struct OriginFile {
 };
 
 struct ShardRecords {
-  std::vector<PackedShard> shards;                                   // by name
+  std::vector<PackedShard> shards;                                   // shards, sorted by name
   std::map<std::string, std::map<std::string, OriginFile>> sensors;  // sensor id → role → file
   std::map<std::string, std::map<std::string, OriginFile>> objects;
   std::set<std::string> versions;

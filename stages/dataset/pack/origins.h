@@ -42,7 +42,7 @@ class Origins {
   Files sensors_;
   Files objects_;
   std::set<std::string> versions_;
-  std::map<std::string, Value::Map> limits_;  // by their text
+  std::map<std::string, Value::Map> limits_;  // distinct limits, by their text
 };
 
 }  // namespace tacipc

@@ -33,7 +33,7 @@ class FrameArchives {
   std::string shard_;
   OutputPath output_;
   TarWriter samples_;
-  std::map<std::string, Archive> frames_;    // by kind
+  std::map<std::string, Archive> frames_;    // archive of each kind
   std::map<std::string, std::string> keys_;  // samples by their names in archives
 };
 

@@ -36,7 +36,7 @@ struct GraspReport {
   std::size_t judged_frame = 0;           // frame in which the outcome was judged
   std::optional<double> creep_m = std::nullopt,
                         creep_rad = std::nullopt;  // creep as a part of slip and rotation in that frame
-  Vector3 grip_m = Vector3::Zero();                // from the centre of mass to the grip, in the object's axes
+  Vector3 grip_m = Vector3::Zero();                // vector from the centre of mass to the grip, in the object's axes
   double lever_m = 0.0;           // distance of the centre of mass from the line along which the fingers press
   std::optional<double> width_m;  // grip width of a drawn grasp
   std::vector<GraspMoment> moments;

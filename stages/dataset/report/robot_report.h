@@ -30,8 +30,8 @@ struct RobotReport {
   std::vector<std::pair<std::string, double>> variables;  // names and values of the drawn variables
   std::vector<std::string> steps;                         // steps of the task: "1 grip", "2 move", …
   RobotFolder motion;
-  std::vector<CouplingTry> tries;        // in order of execution; empty for a robot with MuJoCo's own contacts
-  double tolerance = 1e-3;               // tolerance of residual_relative
+  std::vector<CouplingTry> tries;  // all iterations in order of execution; empty for a robot with MuJoCo's own contacts
+  double tolerance = 1e-3;         // tolerance of residual_relative
   std::vector<HeldBodyLines> held = {};  // bodies held by the gels, as in the record of the scene
 };
 

@@ -24,7 +24,7 @@ struct FrameReport {
   std::optional<double> time_s = std::nullopt;
   std::string phase = {};
   std::optional<double> tangential_force_n = std::nullopt;
-  std::optional<double> torque_z_n_m = std::nullopt;  // on the gel about the z axis of S
+  std::optional<double> torque_z_n_m = std::nullopt;  // torque on the gel about the z axis of S
   std::optional<double> balance_n = std::nullopt;
   std::optional<double> balance_relative = std::nullopt;
   std::optional<double> contact_area_mm2 = std::nullopt;
@@ -83,8 +83,8 @@ struct SampleReport {
 
   std::string motion;                        // requested motion as text
   std::optional<double> depth_m;             // depth at the end of the press
-  std::optional<double> press_force_n;       // in the last frame
-  std::optional<double> tangential_force_n;  // in the last frame
+  std::optional<double> press_force_n;       // force in the last frame
+  std::optional<double> tangential_force_n;  // force in the last frame
   std::optional<int> contact_frames;         // number of frames in which something touches the gel
   std::optional<double> min_distance_m;
   std::optional<double> min_volume_ratio;

@@ -32,7 +32,7 @@ struct SensorFitConfig {
   double sigma_codes = 1.0;  // standard deviation of a block's grey level: noise, rounding and errors of the model
   int subpixels = 2;         // subpixels of the blocks' rays, as for render
   int led_samples = 3;
-  std::vector<FreeParameter> parameters = {};  // in the order of parameter_names()
+  std::vector<FreeParameter> parameters = {};  // free parameters in the order of parameter_names()
   std::optional<FitBalls> balls = std::nullopt;
 
   static SensorFitConfig read(ConfigReader& file);

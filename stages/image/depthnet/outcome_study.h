@@ -30,7 +30,7 @@ struct OutcomeTraining {
 
 struct OutcomeStudy {
   std::vector<GraspItem> train, val, test;
-  std::vector<OutcomeTraining> trainings;  // by seed, each network before its control
+  std::vector<OutcomeTraining> trainings;  // trainings by seed, each network before its control
   torch::jit::Module network;              // network of the first seed
   GripBaseline baseline;                   // fitted to `train`
   std::vector<double> grip_only;           // baseline probabilities of the test grasps

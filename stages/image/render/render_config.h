@@ -21,13 +21,13 @@ struct Perturbation {
   double led_position_m = 0.0;       // each coordinate of each LED
   double led_intensity = 0.0;        // relative
   double camera_position_m = 0.0;    // each coordinate
-  double camera_rotation_rad = 0.0;  // about each axis (rectified camera: only about z)
+  double camera_rotation_rad = 0.0;  // rotation about each axis (rectified camera: only about z)
   double coating_albedo = 0.0;       // relative, all channels equal
 
   static Perturbation read(ConfigReader& in);
 };
 
-/// The same deformation with another sensor, other light or another reference.
+/// Variant: the same deformation with another sensor, other light or another reference.
 struct Variant {
   struct Light {
     std::string group;

@@ -47,7 +47,7 @@ class CollapseMesh : public OpenMesh::TriMesh_ArrayKernelT<CollapseTraits> {
   /// Closes the gap of a removed face: its halfedge `kept` replaces the opposite of `gone`.
   void merge_edges(OpenMesh::HalfedgeHandle kept, OpenMesh::HalfedgeHandle gone);
 
-  std::vector<unsigned> seen_;  // for each vertex, the last query in which it was a neighbour
+  std::vector<unsigned> seen_;  // per vertex, the last query in which it was a neighbour
   unsigned question_ = 0;
 };
 

@@ -32,7 +32,7 @@ struct SideView {
 struct SideSurvey {
   static constexpr double kPressDepth = 0.5e-3;
   std::array<double, 2> window_m{};
-  std::vector<SideView> views;  // in the order of face_names()
+  std::vector<SideView> views;  // views in the order of face_names()
   std::size_t pressed = 0;
   bool given = false;  // the side was requested
 

@@ -81,7 +81,7 @@ class Superposition {
 
  private:
   std::vector<Eigen::Vector2d> press_, along_x_,
-      along_y_;  // in-plane displacements by the press, and by a travel of 1 m along x and along y
+      along_y_;  // nodes' in-plane displacements by the press, and by a travel of 1 m along x and along y
 };
 
 }  // namespace tacipc

@@ -89,7 +89,7 @@ class MaterialPoints {
   std::vector<std::array<double, 3>> object_next_;
   std::vector<int> near_points_;       // object points near the gel, tile by tile
   std::vector<int> first_near_point_;  // index of each tile's first near point, and the end
-  std::vector<MovingPoint> moving_;    // in the order of near_points_
+  std::vector<MovingPoint> moving_;    // moving points in the order of near_points_
 };
 
 }  // namespace tacipc

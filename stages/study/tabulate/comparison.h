@@ -24,7 +24,7 @@ std::vector<MethodScores> read_comparison(const std::vector<NamedPath>& tables, 
 
 struct Verdict {
   bool musts = false;  // the first method meets the required limits in the box
-  bool ahead = false;  // in the box, the first method leads every other one on SSIM-S, MAE and PSNR
+  bool ahead = false;  // the first method leads every other one on SSIM-S, MAE and PSNR in the box
 };
 
 /// Judges the first method.

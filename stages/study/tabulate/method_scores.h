@@ -23,7 +23,7 @@ struct MethodScores {
   std::size_t runs = 1;
   std::size_t counted = 0;          // number of images in the means
   std::vector<std::string> images;  // image names in the order of samples.csv, the same in all regions
-  std::map<std::pair<std::string, std::string>, Cell> cells;  // by region and column of samples.csv
+  std::map<std::pair<std::string, std::string>, Cell> cells;  // key: region and column of samples.csv
 
   const Cell& cell(const std::string& region, const std::string& column) const { return cells.at({region, column}); }
 };

@@ -33,7 +33,7 @@ struct DatasetFacts {
   std::optional<std::string> seed;
   std::string sampling;
   std::vector<MotionFacts> motions;
-  std::map<std::string, GelFacts> gels;  // by sensor-mesh; only gels with a made sample
+  std::map<std::string, GelFacts> gels;  // key: sensor-mesh; only gels with a made sample
   bool packed = false;                   // the folder pack/ exists
 };
 

@@ -20,7 +20,7 @@ std::string picture_name(const std::string& id, const std::string& picture);
 /// Content of one page.
 struct SitePage {
   std::string dataset;   // name of the dataset
-  std::string heading;   // of this page
+  std::string heading;   // heading of this page
   std::string up;        // path to the first page's folder: "" or "../"
   std::string main;      // HTML
   std::string nav = "";  // navigation of this page, below that of the site

@@ -45,7 +45,7 @@ class Raster {
   bool line_between(const Fragment& a, const Fragment& b) const;
   const Fragment& at(int x, int y) const;
 
-  int width_, height_;  // in samples
+  int width_, height_;  // size in samples
   Viewpoint from_;
   std::vector<Fragment> fragments_;
 };

@@ -16,7 +16,7 @@ namespace tacipc {
 
 /// Gel in one frame; rows are vertices of its front.
 struct ViewedFront {
-  Positions positions;              // in the gel's frame S, m
+  Positions positions;              // positions in the gel's frame S, m
   Eigen::VectorXd pressure_pa;      // normal traction per deformed area
   std::vector<ContactState> state;  // none, stick, slip
   Matrix4 world_from_gel;

@@ -38,7 +38,7 @@ std::string byte_planes(const std::vector<int>& values);
 /// and positions, for a soft one those of every frame. Triangles: first corners, each minus the previous one; second
 /// minus first, third minus first. Positions, in the gel's or object's own frame: all x, all y, all z in steps of the
 /// grid, each minus the previous vertex or, from the second frame on, minus the previous frame.
-/// The same view gives the same bytes.
+/// Equal views give equal bytes.
 std::string view_script(const SceneView& view, const std::vector<std::string>& texts);
 
 /// Rest height minus deformed height of the deepest vertex of all gels in a frame of the view, m.
