@@ -13,8 +13,8 @@
 
 namespace tacipc {
 
-/// One coupling iteration ("try") of a time window. The robot felt the response that the press gave in the previous
-/// one.
+/// One coupling iteration ("try") of a time window. Its loads on the robot are the response of the press in the
+/// previous one.
 struct CouplingTry {
   int window = 0, frames = 0;  // number of the window from 1, and its frames
   int number = 0;              // number of the iteration, from 1

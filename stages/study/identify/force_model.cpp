@@ -43,7 +43,7 @@ std::vector<double> relaxing_force_n(const Curve& force_per_pa, const Mounting& 
   double t = 0.0, elastic = 0.0;
   const auto advance = [&](double to) {
     const double dt = to - t;
-    double kept = 0.0, stiffness = 1.0;  // F(to) = kept + stiffness · E f(δ), where kept is the remaining relaxing part
+    double kept = 0.0, stiffness = 1.0;  // F(to) = kept + stiffness · E f(δ); kept depends on the previous step
     std::vector<double> decay(memory.size()), gain(memory.size());
     for (std::size_t i = 0; i < memory.size(); ++i) {
       const double x = dt / relaxation[i].time_s;
