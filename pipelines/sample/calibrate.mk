@@ -1,6 +1,7 @@
-# A sensor file that makes a user's own photographs:
-#   make -f Makefile.data calibrate-sensor SENSOR_FILE=my/sensor.yaml BACKGROUND=my/background.png [PHOTOGRAPHS=my/balls LABELS=my/labels.txt BALL_MM=3]
-# docs/sensors.md says how to take the photographs, docs/calibrate.md what is fitted.
+# Makes a sensor file from a user's own photographs:
+# make -f Makefile.data calibrate-sensor SENSOR_FILE=my/sensor.yaml BACKGROUND=my/background.png [PHOTOGRAPHS=my/balls
+# LABELS=my/labels.txt BALL_MM=3]
+# docs/sensors.md explains the photographs, docs/calibrate.md the fit.
 $(call uses,sample/sample)
 
 SENSOR_FILE ?=#              the sensor as far as one knows it (start from a file of configs/sensors)
@@ -32,7 +33,7 @@ endif
 CALIBRATED := $(OUT)/calibrate/$(basename $(notdir $(SENSOR_FILE)))
 calibrate_photographs := $(if $(PHOTOGRAPHS),$(wildcard $(PHOTOGRAPHS)/*.png))
 
-# As the LEDs of the sensor stand, unless FIT says otherwise.
+# Default configuration by the arrangement of the sensor's LEDs; FIT selects another one.
 calibrate_fit = $(or $(FIT),configs/sensors/calibrate/$$(if $(BIN)/tacipc get $(SENSOR_FILE) leds.ring > /dev/null 2>&1; \
   then echo ring; else echo list; fi).yaml)
 calibrate_balls = {radius_mm: $(BALL_MM)$(comma) contact_gap_mm: $(GAP_MM)$(comma) label_sigma_px: $(LABEL_PX)}

@@ -1,5 +1,6 @@
-# Two sensors grip, hold and lift an object of your own: make -f Makefile.data grasp OBJECT=path.stl [MASS_G=80 FORCE_N=5 and below]
-# SENSOR, MESH, PRESS, FRICTION, UNIT, SCALE, WRAP, FORCE_N and NAME mean what they mean for `sample`.
+# Two sensors grip, hold and lift a user's object: make -f Makefile.data grasp OBJECT=path.stl [MASS_G=80 FORCE_N=5 and
+# below]
+# SENSOR, MESH, PRESS, FRICTION, UNIT, SCALE, WRAP, FORCE_N and NAME have the same meaning as for `sample`.
 $(call uses,sample/sample)
 
 MASS_G  ?= 80#      of the object
@@ -9,7 +10,7 @@ SEED ?= 1#    another number, another grasp
 LIFT_MM ?= 10#      how far it is lifted
 LIFT_STEPS ?= 20#   frames of that: 0.2 s with time steps of 10 ms
 GRASP   ?=#         or a file of your own (docs/grasp.md) in place of all these and FORCE_N
-# Given on the command line.
+# Variables given on the command line.
 grasp_given := $(foreach v,MASS_G TURN GRIP SEED LIFT_MM LIFT_STEPS,$(if $(filter command,$(firstword $(origin $(v)))),$(v))) $(filter FORCE_N,$(given))
 $(foreach v,MASS_G TURN GRIP SEED LIFT_MM LIFT_STEPS GRASP,$(eval override $(v) := $(strip $($(v)))))
 
@@ -33,7 +34,7 @@ endif
 ifneq ($(and $(TURN)$(GRIP),$(filter SEED,$(grasp_given))),)
   $(error SEED: has no effect where TURN or GRIP say how the object is gripped)
 endif
-# The grasp that the variables say, or of a hundred drawn grasps the one nearest to the centre of mass.
+# The grasp given by the variables, or the one nearest to the centre of mass among a hundred drawn grasps.
 grasp_chosen = turn_deg: $(or $(TURN),0), grip_mm: [$(or $(GRIP),0$(comma)0$(comma)0)]
 grasp_drawn  = draw: {seed: $(SEED), best_of: 100, upright: true}
 define grasp_yaml

@@ -1,6 +1,6 @@
-# What a press costs: the same presses by the default route and by factorisation, over sizes of gel, objects and motions, with threads
-# and beside each other. Every press is a folder; an interrupted benchmark resumes. Nothing else should run beside it.
-# The coin of the paper's release is measured too where SHARED has it.
+# Cost of a press: the same presses by the default route and by factorisation, over sizes of gel, objects and motions,
+# with threads and in parallel. Every press has a folder; an interrupted benchmark resumes. Nothing else should run at
+# the same time. The coin of the paper's release is also measured if SHARED has it.
 
 BENCH := $(OUT)/bench
 BENCH_GELS ?= 3k 12k 24k 50k 100k#     pressed;
@@ -106,14 +106,15 @@ bench-page: $(BENCH)/page/bench_table.yaml
 	@cat $(DOCS)/performance.md
 	@echo; echo "estimate reads $(COST_MODEL_MEASURED) from now on"
 
-# One after the other, whatever JOBS says: what runs beside a press is measured with it. The table is always made again, for other runs may be asked for:
-# with .SECONDARY a table that is newer than what the runs are made of would not miss them.
+# Presses run one after the other regardless of JOBS, because parallel work would be measured with them. The table is
+# always made again, because other runs may be requested: with .SECONDARY, a table newer than the prerequisites of the
+# runs would not trigger them.
 bench-press: ## development: Cost of a press by route, size, object and motion (15 minutes; BENCH_GELS=); writes OUT/docs/performance.md and a cost model
 bench-press: | build build-bench
 	@rm -f $(BENCH)/page/bench_table.yaml
 	@$(MAKE) -f Makefile.data --no-print-directory bench-page JOBS=1
 
-# What the shipped settings cost, and with one of them changed; docs/performance.md has a place for the table.
+# Cost of the default settings, and with one of them changed; docs/performance.md has a mark for the table.
 DEFAULTS := $(BENCH)/defaults
 DEFAULTS_OBJECTS ?= star letter_a gear weave rings coin#  the coin of bench-press among them
 DEFAULTS_SHEARED ?= star coin#  dragged after the press

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Stands in for a stage's program while faults.sh runs a test. The call is first made aside, in a copy of its output folder: once undisturbed,
-# then once for each fault. Nothing half made may then have a record, and the same call, given again, must end in the same bytes as the
-# undisturbed one. At last the call is made as the test meant it.
+# Replaces a stage's program while faults.sh runs a test. The call is first made in a copy of its output folder: once
+# undisturbed, then once for each fault. An incomplete result must then have no record, and the same call, repeated,
+# must end in the same bytes as the undisturbed one. Finally the call is made as the test intended.
 set -uo pipefail
 stage=$(basename "$0")
 program=$FAULTS_PROGRAMS/$stage
@@ -18,7 +18,7 @@ mkdir "$before"
 rm -rf "$before"/.[!.]*
 args[at]=$place
 
-# draw N: a number below N, by seed and call, in $drawn.
+# draw N: sets $drawn to a number below N, by seed and call.
 key="$FAULTS_SEED $stage ${*//"$PWD"/}" draws=0 drawn=0
 draw() {
   local hash
@@ -64,7 +64,7 @@ if [ "$status" = 0 ]; then
   call timeout -s KILL "$(printf '%d.%06d' $((drawn / 1000000)) $((drawn % 1000000 + 1)))"
   if [ "$status" = 137 ]; then borne kill; else note kill missed; fi
 
-  # A file ends in the middle of a write: the kernel takes what is left of the limit, then nothing more.
+  # A file ends in the middle of a write: the kernel writes the rest of the limit, then nothing more.
   largest=$(find "$clean" -type f -not -name '*.log' -printf '%s\n' | sort -n | tail -n 1)
   fresh
   draw "${largest:-1}"
@@ -90,7 +90,7 @@ if [ "$status" = 0 ]; then
     umount "$place"
   fi
 
-  # What earlier stages wrote, damaged: inputs with a record beside them, in copies.
+  # Damaged results of earlier stages: copies of inputs that have a record.
   roots=()
   for ((i = 0; i < ${#args[@]}; ++i)); do
     input=${args[i]}
@@ -133,7 +133,7 @@ if [ "$status" = 0 ]; then
       call
       echo "damaged: ${victim#"$aside/input/"} of $root" >> "$said"
       if [ "$status" = 0 ]; then
-        # The record tells of all that is in a folder, read or not.
+        # The record covers everything in a folder, whether it is read or not.
         if same --exclude="$stage.yaml" "$place" "$aside/moved" >> "$said"; then note damaged missed; else bad damaged "it takes a damaged file"; fi
       elif [ "$status" -gt 2 ]; then bad damaged "it does not end with a message"
       elif ! head -n -1 "$said" | grep -qF -e "$(basename "$victim")" -e "$(basename "$(dirname "$victim")")" -e "$aside/input"; then
