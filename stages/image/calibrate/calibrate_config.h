@@ -27,7 +27,7 @@ struct LampGuess {
 /// Limits of the light sources around the guess, set by the sensor's construction. Colours mix freely: without bounds,
 /// sources can swap positions or run to infinity, and their mixtures explain the balls about as well.
 struct LampBounds {
-  double azimuth_rad = 0.0;  // to either side of the guess
+  double azimuth_rad = 0.0;  // largest deviation from the guess to either side
   std::array<double, 2> elevation_tan{};
   std::array<double, 2> distance_m{};
   std::array<double, 2> half_width_rad{};  // equal values: widths stay at the guess

@@ -51,9 +51,9 @@ MembraneView view_ball(const BallPress& press, const Ball& ball, const Sensor& s
 
 /// Fits the light. The kind of model is chosen by cross-validation over the balls.
 /// If `press` is given, it has the shapes. After a first fit every ball's centre and depth are also fitted, held by the
-/// labels (label_sigma_px), and then the light again; known objects are repositioned in the same way. With
-/// fit_contact_gap the rim's gap becomes, after every such fit, the median over balls of the gap at the label's radius;
-/// the labels' depths follow, and `press` keeps that rim. Without `press` the balls' views stay as they are.
+/// labels (label_sigma_px), and known objects are repositioned; then the light is fitted again. With fit_contact_gap
+/// the rim's gap becomes, after every such fit, the median over balls of the gap at the label's radius; the labels'
+/// depths follow, and `press` keeps that rim. Without `press` the balls' views stay as they are.
 /// \param objects known objects that calibrate in addition to the balls
 LightFit fit_light(std::vector<Ball>& balls, std::vector<KnownObject>& objects, BallPress* press, const Sensor& sensor,
                    const CalibrateConfig& config);

@@ -29,7 +29,7 @@ struct Photograph {
 /// Colours and veil for given parameters.
 struct Colors {
   std::array<Eigen::VectorXd, 3> value;  // groups, then the veil
-  std::array<Eigen::MatrixXd, 3> gram;   // of the weighted columns
+  std::array<Eigen::MatrixXd, 3> gram;   // normal equations of the weighted columns
 };
 
 class Problem {

@@ -19,8 +19,8 @@ torch::Tensor loss_of(const torch::Tensor& predicted_mm, const torch::Tensor& de
 
 /// Sums of errors over pixels, at the network's resolution.
 struct ErrorSums {
-  double pixels = 0.0, error_mm = 0.0;                  // over pixels with a depth
-  double contact_pixels = 0.0, contact_error_mm = 0.0;  // over pixels deeper than kContactMm
+  double pixels = 0.0, error_mm = 0.0;                  // sums over pixels with a depth
+  double contact_pixels = 0.0, contact_error_mm = 0.0;  // sums over pixels deeper than kContactMm
   double mae_mm() const { return error_mm / pixels; }   // NaN without pixels
   double mae_contact_mm() const { return contact_error_mm / contact_pixels; }
 };

@@ -16,7 +16,7 @@ double smooth_step(double t) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-/// Height of a strand's crown over its crossings: 1 where it runs over the other family, 0 where under.
+/// Height of a strand's crown over its crossings: 1 if it runs over the other family, 0 if it runs under.
 double crown(double along, double across_index, double phase) {
   return 0.5 + 0.5 * std::cos(pi * (along - 0.5 - across_index + phase));
 }

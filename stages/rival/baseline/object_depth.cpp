@@ -11,7 +11,7 @@ namespace tacipc {
 namespace {
 
 struct RayHit {
-  double depth = 0.0;                   // along the camera's axis
+  double depth = 0.0;                   // depth along the camera's axis
   std::array<double, 3> barycentric{};  // barycentric coordinates, sum 1
 };
 

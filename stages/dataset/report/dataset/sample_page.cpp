@@ -94,7 +94,7 @@ std::string grasp_of_finger(SamplePage& page, const fs::path& finger, const fs::
     page.pictures.emplace_back(file, jpeg_bytes(image, kQuality, file));
     strip = html_link(folder / file, folder / "samples");
   } catch (const DataError&) {
-    // Its images were dropped, or those of the other finger are not made yet.
+    // The images of this finger were dropped, or those of the other one are not made yet.
   }
   return grasp_article(grasp, finger.filename() == "right" ? 1 : 0, strip);
 }
