@@ -21,6 +21,7 @@ struct RunName {
 /// Splits a name. \throw DataError if the number of parts is wrong
 RunName parse_run_name(const std::string& name);
 
+/// Counts of one saved frame.
 struct Frame {
   bool press = false;  // true: frame of the press; false: of the motion after it
   int contacts = 0;    // front vertices in contact
@@ -28,6 +29,7 @@ struct Frame {
   int patch = 0;       // Newton iterations of patches
 };
 
+/// One finished press with its timings.
 struct Run {
   std::string text;  // the whole name
   RunName name;

@@ -27,6 +27,7 @@ inline double load_average() {
   return load;
 }
 
+/// Wall-clock time since an arbitrary start, s.
 inline double wall_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }

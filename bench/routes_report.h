@@ -43,6 +43,7 @@ struct RoutePair {
 /// \throw DataError for other names, or if one of the two is missing
 std::vector<RoutePair> read_route_pairs(const std::vector<std::filesystem::path>& folders);
 
+/// Counts and medians over all samples.
 struct RouteSummary {
   int samples = 0, fast_converged = 0, direct_converged = 0, agree = 0;
   int agrees_at_every_vertex = 0;  // number of agreeing samples of which no vertex differs by more than the limit

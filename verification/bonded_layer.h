@@ -16,6 +16,7 @@ namespace tacipc::verify {
 /// solves that 4 × 4 system by itself.   [e.g. Meijers 1968; Johnson 1985, 5.8]
 double bonded_layer_kernel(double omega, double poissons_ratio);
 
+/// Gel layer and indenter.
 struct LayerProblem {
   Elastic gel;
   double thickness_m = 0.0;
@@ -31,6 +32,7 @@ struct LayerProblem {
   double combined_modulus_pa() const;
 };
 
+/// State of the contact.
 struct LayerSolution {
   double force_n = 0.0;
   double depth_m = 0.0;

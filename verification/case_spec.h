@@ -61,6 +61,7 @@ struct ReferenceSpec {
   static ReferenceSpec read(ConfigReader& in);
 };
 
+/// Content of a case's file.
 struct CaseSpec {
   std::string title;
   std::string source;  // source of the expected numbers

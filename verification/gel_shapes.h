@@ -46,6 +46,7 @@ struct RingGel {
   double layer_m = 0.0, layer_growth = 1.0;
 };
 
+/// Disc from the tetmesh library.
 struct DiscGel {
   double radius_m = 0.0, thickness_m = 0.0;
   SizingConfig sizing;
@@ -60,6 +61,7 @@ struct FileGel {
   bool flip = false;
 };
 
+/// Section `gel` of a case.
 struct GelSpec {
   std::variant<BoxGel, RingGel, DiscGel, FileGel> shape;
 

@@ -21,6 +21,7 @@ const std::vector<Formula>& formulas();
 /// \throw UsageError if the formula does not apply to this kind of gel or object
 double evaluate(const std::string& formula, const Outcome& outcome, int frame, bool with_standoff);
 
+/// One row of the table: a measured and an expected value.
 struct Row {
   std::string label;
   std::string unit;

@@ -13,6 +13,7 @@ namespace tacipc::verify {
 
 constexpr std::string_view kSharedPrefix = "shared:";
 
+/// True if a path names a file of the shared data.
 inline bool is_shared(const std::string& path) { return path.starts_with(kSharedPrefix); }
 
 /// Path of a file: `shared:rest` becomes `rest` in the shared folder; other paths stay.

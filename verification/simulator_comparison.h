@@ -13,6 +13,7 @@
 
 namespace tacipc::verify {
 
+/// Names of a simulator.
 struct Simulator {
   std::string name;   // name in file names
   std::string label;  // name in tables

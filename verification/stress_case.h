@@ -11,6 +11,7 @@
 
 namespace tacipc::verify {
 
+/// All inputs of a case.
 struct StressCase {
   Sensor sensor;
   StressGel gel;
@@ -49,6 +50,7 @@ struct StressTotals {
   }
 };
 
+/// Result of a case, as stored in its record.
 struct StressResult {
   StressOutcome outcome = StressOutcome::converged;
   std::string reason = {};                  // solver message, unless the case converged

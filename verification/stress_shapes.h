@@ -10,6 +10,7 @@
 
 namespace tacipc::verify {
 
+/// Drawn gel.
 struct StressGel {
   GelShape shape;
   TetMesh mesh;
@@ -24,6 +25,7 @@ StressGel draw_gel(const StressConfig::Gel& ranges, double exact_share, Draws& d
 /// its volume.
 void jitter_vertices(TetMesh& mesh, double part, Draws& draws);
 
+/// Drawn object.
 struct StressObject {
   std::string kind;
   TriangleMesh mesh;  // closed, outward triangles, in the orientation of the press; lowest point at z = 0
@@ -34,6 +36,7 @@ struct StressObject {
   double edge_m = 0.0;          // target edge length, m
 };
 
+/// Draws an object. `gel_edge_m` is the median edge of the gel's front.
 StressObject draw_object(const StressConfig::Object& ranges, double gel_edge_m, Draws& draws);
 
 /// Splits every triangle into four until no edge is longer than `edge_m`, or until another split would exceed

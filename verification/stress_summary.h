@@ -22,6 +22,7 @@ struct StressLine {
 /// \throw DataError, ConfigError for a file that is not such a record
 StressLine read_stress_line(const std::filesystem::path& folder);
 
+/// Counts over all cases.
 struct StressSummary {
   int cases = 0, converged = 0, not_converged = 0, intersected = 0, inverted = 0, crashed = 0;
 
@@ -29,6 +30,7 @@ struct StressSummary {
   bool holds() const { return cases > 0 && intersected + inverted + crashed == 0 && 100 * not_converged < cases; }
 };
 
+/// Counts the cases.
 StressSummary summarize(const std::vector<StressLine>& lines);
 
 /// The counts as one line of text.

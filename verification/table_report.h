@@ -42,6 +42,7 @@ struct LongRows {
   static LongRows read(ConfigReader& in);
 };
 
+/// State of a campaign.
 struct LongRowResult {
   LongRow row;
   std::string state;  // pass, missed, failed, skipped, not run

@@ -17,6 +17,7 @@ struct Extent {
   double high = -std::numeric_limits<double>::infinity();
 };
 
+/// Counts of a dataset's samples, and extents of their numbers.
 struct DatasetCounts {
   std::map<std::string, int> status;  // number of samples by made, failed, unmade
   std::map<std::string, std::map<std::string, int>>

@@ -25,6 +25,7 @@ struct CardConfig {
   }
 };
 
+/// Inputs of the dataset card.
 struct CardContent {
   std::string name;
   CardConfig config;

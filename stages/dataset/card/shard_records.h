@@ -11,6 +11,7 @@
 
 namespace tacipc {
 
+/// One shard, from its record.
 struct PackedShard {
   std::string name;              // "train-00000-of-00004"
   std::filesystem::path folder;  // folder written by pack
@@ -28,6 +29,7 @@ struct OriginFile {
   std::string hash;
 };
 
+/// Records of all shards of one dataset.
 struct ShardRecords {
   std::vector<PackedShard> shards;                                   // shards, sorted by name
   std::map<std::string, std::map<std::string, OriginFile>> sensors;  // sensor id → role → file

@@ -17,6 +17,7 @@ namespace tacipc {
 /// `<sensor>.yaml`), the first eight digits of the file's hash are appended.
 std::string sensor_id_of(const PlannedRow& plan, const SampleFrames& sample);
 
+/// Collects the origins of a shard's samples.
 class Origins {
  public:
   /// Adds a sample. \throw DataError if two samples use one name for different files

@@ -8,6 +8,7 @@
 
 namespace tacipc {
 
+/// Profile of a packed dataset, from configs/datasets/pack/*.yaml.
 struct PackConfig {
   std::vector<const Field*> packed;  // packed fields, in the order of the table
   bool variants = false;             // also pack the render's variants

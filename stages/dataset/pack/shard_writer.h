@@ -15,6 +15,7 @@ namespace tacipc {
 /// Attributes of a sample's group, in their order.
 Value::Map sample_attributes(const PlannedRow& plan, const std::string& sensor_id, const SampleFrames& sample);
 
+/// Writes the samples of a shard, one after the other.
 class ShardWriter {
  public:
   /// \param root attributes of the file

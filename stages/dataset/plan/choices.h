@@ -10,6 +10,7 @@
 
 namespace tacipc {
 
+/// One source file and its role.
 struct ChosenFile {
   std::string role;  // role such as sensor or mesh; unique in a choice
   std::filesystem::path file;

@@ -20,6 +20,7 @@ constexpr std::uint64_t seed_of(std::uint64_t global_seed, std::string_view name
 enum class Split { train, val, test };
 const char* name_of(Split split);
 
+/// One sample of the plan.
 struct PlannedSample {
   std::string id;  // <sensor>__<object>__<motion>__<index>
   int index = 0;

@@ -12,6 +12,7 @@
 
 namespace tacipc {
 
+/// Collects the statistics of one column.
 class EpisodeStatistics {
  public:
   EpisodeStatistics(std::string name, std::size_t width, bool image)

@@ -24,6 +24,7 @@ enum class FeatureRule {
   object
 };
 
+/// One feature of an episode's frames.
 struct Feature {
   std::string name;
   std::string field;  // field of `obs`; for hand, next_hand and object a field of `series`

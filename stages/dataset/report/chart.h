@@ -29,6 +29,7 @@ struct Rule {
   double at = 0.0;
 };
 
+/// Content of a drawing over one x axis.
 struct Chart {
   std::string what;  // alternative text
   std::string x_label;

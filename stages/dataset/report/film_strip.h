@@ -8,6 +8,7 @@
 
 namespace tacipc {
 
+/// Frames of an animation, and how to show them.
 struct FilmStrip {
   ByteImage sheet;  // equal frames, stacked from the first on
   int frames = 0;

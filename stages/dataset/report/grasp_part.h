@@ -25,6 +25,7 @@ struct GraspMoment {
       {};  // slipping fraction of the normal force of left and right finger
 };
 
+/// Data of a grasp from its record.
 struct GraspReport {
   std::string outcome;
   std::optional<std::string> reason = std::nullopt;  // reason of any outcome except lifted

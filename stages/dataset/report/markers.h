@@ -19,6 +19,7 @@ struct ContactPoint {
   bool slips = false;
 };
 
+/// Markers and contacts of one frame.
 struct MarkerPicture {
   int frame = 0;
   bool since_press = false;  // true: displacement since the end of the press; false: since rest

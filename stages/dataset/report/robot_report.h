@@ -25,6 +25,7 @@ struct CouplingTry {
   bool of_one_window(const CouplingTry& other) const { return window == other.window && frames == other.frames; }
 };
 
+/// Data of a robot's run.
 struct RobotReport {
   std::string task, seed;
   std::vector<std::pair<std::string, double>> variables;  // names and values of the drawn variables

@@ -74,6 +74,7 @@ struct PhaseImage {
   std::filesystem::path tactile;
 };
 
+/// All data of one sample.
 struct SampleReport {
   std::filesystem::path folder;
   std::string name;

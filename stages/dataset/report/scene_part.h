@@ -13,6 +13,7 @@
 
 namespace tacipc {
 
+/// Data of a scene from its folder.
 struct SceneReport {
   std::vector<Instant> frames;
   SceneBodies bodies;

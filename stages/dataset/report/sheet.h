@@ -10,6 +10,7 @@ namespace tacipc {
 
 using Color = std::array<double, 3>;  // RGB
 
+/// A line of text in a picture.
 struct Text {
   std::string words;
   int height;  // height of a capital letter, px

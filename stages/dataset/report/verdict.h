@@ -18,6 +18,7 @@ struct CountLimits {
 };
 CountLimits count_limits(const RecordLines<PressSummary>& summary);
 
+/// One check of a press.
 struct CheckReport {
   std::string name;
   std::string value;         // value with its unit

@@ -30,6 +30,7 @@ struct GelSize {
   double poissons_ratio = 0.0;
 };
 
+/// Numbers of frames of a motion.
 struct MotionLength {
   int press_frames = 0;
   int other_frames = 0;
@@ -41,6 +42,7 @@ double modelled_seconds(const CostModel& model, const GelSize& gel, const Motion
 /// Bytes of a sample on disk by the model.
 double modelled_bytes(const GelSize& gel, const MotionLength& motion, RenderedFrames frames);
 
+/// Estimated cost of all samples; times in processor seconds.
 struct CostEstimate {
   std::size_t samples = 0;
   std::size_t made = 0;        // number of made samples, which the estimate uses

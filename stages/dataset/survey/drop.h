@@ -8,6 +8,7 @@
 
 namespace tacipc {
 
+/// Result of drop_packed.
 struct Dropped {
   std::size_t stages = 0;   // number of stages whose files were removed
   std::size_t samples = 0;  // number of samples that keep their files: changed since packing, or being made

@@ -15,6 +15,7 @@ struct IndexRange {
   std::optional<std::size_t> end = std::nullopt;
 };
 
+/// Numbers of samples and presses by status.
 struct DatasetStatus {
   std::size_t samples = 0, made = 0, failed = 0, running = 0;
   std::size_t made_recently = 0;  // samples made in the ten minutes before `now`

@@ -9,6 +9,7 @@
 
 namespace tacipc {
 
+/// Configuration of the stage background.
 struct BackgroundConfig {
   double contact_radii =
       0.0;  // a photograph counts at pixels farther from the contact's centre than this number of contact radii
@@ -17,6 +18,7 @@ struct BackgroundConfig {
   static BackgroundConfig read(ConfigReader& in);
 };
 
+/// The median image and its statistics.
 struct MedianBackground {
   ByteImage image;
   int fewest = 0;  // least number of photographs that count at any pixel

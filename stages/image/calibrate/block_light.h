@@ -20,6 +20,7 @@ namespace tacipc {
 /// colour 1, then one column for an ambient of 1.
 using BlockLight = std::array<Eigen::MatrixXd, 3>;
 
+/// Position of a ball's centre in frame S, and its depth.
 struct BallPlace {
   double x_m = 0.0;
   double y_m = 0.0;

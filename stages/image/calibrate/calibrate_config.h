@@ -33,6 +33,7 @@ struct LampBounds {
   std::array<double, 2> half_width_rad{};  // equal values: widths stay at the guess
 };
 
+/// Configuration of a fit of light to balls.
 struct CalibrateConfig {
   double ball_radius_m = 0.0;
   double contact_gap_m = 0.0;    // gap between ball and membrane at the visible rim of a contact

@@ -8,6 +8,7 @@
 
 namespace tacipc {
 
+/// One pixel in a contact.
 struct ContactPixel {
   int x = 0, y = 0;
   double slope_x = 0.0, slope_y = 0.0;  // slopes of the surface, positive into the gel

@@ -34,6 +34,7 @@ struct HeldOut {
   double rmse_codes = 0.0;
 };
 
+/// Fitted light, with its errors and posterior.
 struct LightFit {
   LightField light;
   ModelKind kind = ModelKind::both;

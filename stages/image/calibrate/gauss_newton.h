@@ -6,6 +6,7 @@
 
 namespace tacipc {
 
+/// Settings of the iteration.
 struct GaussNewtonSettings {
   Eigen::VectorXd step;   // steps of the forward differences, per parameter
   Eigen::VectorXd lower;  // bounds; steps end there
@@ -14,6 +15,7 @@ struct GaussNewtonSettings {
   double relative_decrease = 1e-5;  // the iteration ends if the sum of squares decreases by less than this fraction
 };
 
+/// Result of the iteration.
 struct GaussNewtonResult {
   Eigen::VectorXd parameters;
   double sum_of_squares = 0.0;

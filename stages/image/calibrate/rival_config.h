@@ -26,6 +26,7 @@ struct NetworkFit {
   std::uint64_t seed = 0;
 };
 
+/// Configuration of the fit.
 struct RivalFit {
   enum class Model { table, network, metallic_roughness };
   Model model = Model::table;

@@ -12,6 +12,7 @@
 
 namespace tacipc {
 
+/// Photograph of a ball, and its label.
 struct BallPhotograph {
   ByteImage image;
   BallLabel label;
@@ -25,6 +26,7 @@ struct PhotographFit {
   std::array<std::size_t, 3> blocks{};  // number of blocks that count
 };
 
+/// Fitted position of one ball.
 struct BallFit {
   std::string image;
   BallPlace place;
@@ -32,6 +34,7 @@ struct BallFit {
   Eigen::Vector3d sigma_px = Eigen::Vector3d::Zero();    // standard deviations; 0: the label was assumed exact
 };
 
+/// Fitted sensor, with uncertainties and errors.
 struct SensorFit {
   Eigen::VectorXd u;                             // parameters, in prior standard deviations from the prior's mean
   Eigen::MatrixXd covariance;                    // covariance of u with balls and colours free

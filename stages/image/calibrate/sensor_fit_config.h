@@ -27,6 +27,7 @@ struct FitBalls {
   std::optional<double> fit_radius_px = std::nullopt;
 };
 
+/// Settings of the sensor fit.
 struct SensorFitConfig {
   int block_px = 1;          // width and height of the block that one traced pixel represents; divides the image's size
   double sigma_codes = 1.0;  // standard deviation of a block's grey level: noise, rounding and errors of the model

@@ -8,6 +8,7 @@
 
 namespace tacipc {
 
+/// Input and target of one training example.
 struct DepthExample {
   torch::Tensor input;     // f32 (1, 6, h, w), as from `reduced` of the network
   torch::Tensor depth_mm;  // f32 (1, 1, h, w)

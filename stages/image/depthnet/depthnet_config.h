@@ -8,12 +8,14 @@
 
 namespace tacipc {
 
+/// Section `loss`.
 struct LossConfig {
   bool squared = false;         // true: mean squared error; false: mean absolute error
   double contact_weight = 0.0;  // additional weight of a pixel in contact (kContactMm): it counts 1 + contact_weight
   double slope_weight = 0.0;    // weight of the mean error of differences between neighbours
 };
 
+/// Section `schedule`.
 struct ScheduleConfig {
   int epochs = 0;
   int batch = 0;
@@ -37,6 +39,7 @@ NetworkConfig read_network(ConfigReader in);
 ScheduleConfig read_schedule(ConfigReader in);
 AugmentationConfig read_augmentation(ConfigReader in, bool reference = true);  // false: no key reference_codes
 
+/// Configuration of a depth network.
 struct DepthnetConfig {
   NetworkConfig network;
   LossConfig loss;

@@ -12,6 +12,7 @@
 
 namespace tacipc {
 
+/// One grasp as an example for a network.
 struct GraspItem {
   std::string name;  // key `grasp` of the pack: id of the left finger
   std::string object;

@@ -7,6 +7,7 @@
 
 namespace tacipc {
 
+/// Configuration of an outcome network.
 struct OutcomeConfig {
   NetworkConfig network;  // contracting path of the U-Net, for each image
   int hidden = 0;         // size of the hidden layer that joins all images of a grasp

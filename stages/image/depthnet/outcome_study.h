@@ -28,6 +28,7 @@ struct OutcomeTraining {
   std::string name() const;
 };
 
+/// Grasps, trainings and baseline of a study.
 struct OutcomeStudy {
   std::vector<GraspItem> train, val, test;
   std::vector<OutcomeTraining> trainings;  // trainings by seed, each network before its control

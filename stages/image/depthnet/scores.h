@@ -6,6 +6,7 @@
 
 namespace tacipc {
 
+/// Scores of predicted probabilities.
 struct Scores {
   double accuracy = 0.0;           // fraction of correct predictions; positive from a probability of ½ on
   double balanced_accuracy = 0.0;  // mean of that fraction among the positives and among the negatives

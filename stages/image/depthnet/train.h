@@ -24,6 +24,7 @@ struct ErrorSums {
   double mae_mm() const { return error_mm / pixels; }   // NaN without pixels
   double mae_contact_mm() const { return contact_error_mm / contact_pixels; }
 };
+/// Errors of the network over items. \return zero sums without items
 ErrorSums errors_of(const torch::jit::Module& network, const std::vector<DepthItem>& items);
 
 /// Trains the weights in place. Results depend only on network, items and configuration. \pre items are not empty

@@ -21,6 +21,7 @@ struct RenderUnit {
   bool needs_rays = true;                             // false: the first unit's basis images serve
 };
 
+/// Summary of one unit, for the record.
 struct UnitSummary {
   std::string name = {};
   bool real_reference = false;

@@ -20,6 +20,7 @@ namespace tacipc {
 /// Photograph that the sensor names. \throw DataError if its size is not the camera's
 ByteImage read_reference(const std::filesystem::path& path, const Camera& camera);
 
+/// Outputs of one frame in one unit.
 struct RenderedFrame {
   std::size_t index = 0;
   std::string unit = {};
@@ -31,6 +32,7 @@ struct RenderedFrame {
   Positions marker_px = {};                           // column, row and 1 for a visible marker, otherwise NaN and 0
 };
 
+/// Summary of a rendering, for the record.
 struct RenderSummary {
   std::vector<std::size_t> frames = {};
   std::vector<UnitSummary> units = {};

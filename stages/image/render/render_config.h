@@ -49,6 +49,7 @@ struct Variant {
 /// Transfer of the reference's noise into the image: on grey levels, as a factor in linear light, or not at all.
 enum class Transfer { encoded, linear, none };
 
+/// Configuration of render.
 struct RenderConfig {
   RenderedFrames frames = RenderedFrames::last;
   TraceSettings trace;

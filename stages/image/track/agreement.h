@@ -7,6 +7,7 @@
 
 namespace tacipc {
 
+/// Statistics of the comparison.
 struct Agreement {
   int markers = 0;       // tracks that begin at a known marker
   int visible = 0;       // marker positions visible in the pictures, all frames

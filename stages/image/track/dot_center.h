@@ -8,6 +8,7 @@
 
 namespace tacipc {
 
+/// Centre and size of a dot.
 struct DotCenter {
   Eigen::Vector2d px = Eigen::Vector2d::Zero();  // column, row; the first pixel spans 0 … 1
   double area_px = 0.0;                          // Σ coverage

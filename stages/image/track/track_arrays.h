@@ -5,6 +5,7 @@
 
 namespace tacipc {
 
+/// Marker positions per frame.
 inline const NpyField& marker_track_field() {
   static const NpyField kField{
       .file = "marker_track.npy",

@@ -7,6 +7,7 @@
 
 namespace tacipc {
 
+/// Configuration of track.
 struct TrackConfig {
   std::string curve = "srgb";       // response curve of the images: srgb or linear
   double least_diameter_px = 0.0;   // least diameter of a dot at rest

@@ -15,6 +15,7 @@ namespace tacipc {
 /// Method that found a position: `lost` none (NaN), `flow` optical flow alone, `center` centroid of the dot.
 enum class TrackQuality : std::uint8_t { lost = 0, flow = 1, center = 2 };
 
+/// Positions of all markers in all images.
 struct MarkerTracks {
   int num_markers = 0;
   std::vector<std::vector<Eigen::Vector2d>> px;         // per frame and marker; the first pixel spans 0 … 1

@@ -5,12 +5,14 @@
 
 namespace tacipc {
 
+/// Settings of the collapse.
 struct CollapseConfig {
   int target_vertices = 8000;
   double max_normal_change_deg = 60.0;  // largest change of a face normal by one collapse
   double max_aspect_ratio = 20.0;       // longest edge over its height; does not apply to faces that were worse before
 };
 
+/// Course of the collapse, for the record.
 struct CollapseReport {
   bool passed_through = false;  // the mesh was already small enough
   int retries = 0;              // number of repetitions with more vertices because the surface crossed itself

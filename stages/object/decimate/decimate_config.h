@@ -8,6 +8,7 @@
 
 namespace tacipc {
 
+/// Configuration of decimate.
 struct DecimateConfig {
   CollapseConfig collapse;
   DoctorConfig doctor;

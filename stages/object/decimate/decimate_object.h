@@ -9,6 +9,7 @@
 
 namespace tacipc {
 
+/// Result of decimate.
 struct DecimatedObject {
   TriangleMesh mesh;
   Value::Map summary;                             // lines for the record; lengths in mm

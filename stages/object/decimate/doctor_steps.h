@@ -33,6 +33,7 @@ void split_vertices(TriangleMesh& mesh, DoctorReport& report);
 /// Gives each fan of faces that are neighbours by `opposite` a vertex of its own; the first fan keeps the old one.
 void split_fans(TriangleMesh& mesh, const std::vector<int>& opposite, DoctorReport& report);
 
+/// Limits of holes that may be filled.
 struct HoleLimits {
   int max_edges;
   double max_length_m;

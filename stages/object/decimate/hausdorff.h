@@ -7,11 +7,13 @@
 
 namespace tacipc {
 
+/// Sampling of the surfaces.
 struct HausdorffConfig {
   double spacing_m = 5e-5;               // spacing of samples on a face
   std::int64_t max_samples = 4'000'000;  // limit per surface; the spacing grows if more samples would be needed
 };
 
+/// Distances in both directions, and the numbers of samples.
 struct Hausdorff {
   double first_to_second_m = 0.0;  // farthest sample of the first surface from the second
   double second_to_first_m = 0.0;

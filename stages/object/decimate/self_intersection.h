@@ -8,6 +8,7 @@
 
 namespace tacipc {
 
+/// Two intersecting faces.
 struct FacePair {
   int first;
   int second;  // > first

@@ -29,6 +29,7 @@ struct SideView {
       {};  // height above the plane kPressDepth below the highest point, m; NaN where there is no object
 };
 
+/// Views of all sides, and the side that presses.
 struct SideSurvey {
   static constexpr double kPressDepth = 0.5e-3;
   std::array<double, 2> window_m{};

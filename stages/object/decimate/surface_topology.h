@@ -12,11 +12,13 @@ namespace tacipc {
 
 /// Half edge h = 3 · face + k runs from corner k to corner k + 1 of its face.
 inline int next_in_face(int half_edge) { return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1; }
+/// Vertices at the start and the end of a half edge.
 inline int origin_of(const Triangles& triangles, int half_edge) { return triangles(half_edge / 3, half_edge % 3); }
 inline int target_of(const Triangles& triangles, int half_edge) {
   return origin_of(triangles, next_in_face(half_edge));
 }
 
+/// A half edge as one use of its edge.
 struct EdgeUse {
   int low, high;  // the two vertices
   int half_edge;
@@ -43,6 +45,7 @@ void pair_up(int a, int b, std::vector<int>& opposite);
 /// \throw DataError, with the position, if more than two faces share an edge
 std::vector<int> opposite_half_edges(const TriangleMesh& mesh);
 
+/// Component of each face, and the number of components.
 struct Components {
   std::vector<int> of_face;
   int count = 0;
@@ -62,9 +65,11 @@ std::string place_mm(const Eigen::RowVector3d& point_m);
 /// Extent along the longest axis of the box around the referenced vertices, m.
 double largest_extent(const TriangleMesh& mesh);
 
+/// Position of corner k of a face, m.
 Vector3 corner(const TriangleMesh& mesh, int face, int k);
 /// Area vector: normal times area, m².
 Vector3 area_vector(const TriangleMesh& mesh, int face);
+/// Area of the whole surface, m².
 double surface_area(const TriangleMesh& mesh);
 
 }  // namespace tacipc

@@ -18,6 +18,7 @@ Height read_picture_height(const PictureSource& source, const ReliefShape& relie
 /// \throw DataError as read_picture_height
 Height face_relief(const EmbossConfig& config);
 
+/// The coin and its measures.
 struct EmbossedCoin {
   TriangleMesh mesh;
   double spacing_m = 0.0;        // spacing of the vertices on the face

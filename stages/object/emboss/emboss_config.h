@@ -7,6 +7,7 @@
 
 namespace tacipc {
 
+/// Shape of the relief.
 struct ReliefShape {
   double height_m = 0.0;
   double wall_m = 0.0;      // width of a wall seen from above
@@ -20,6 +21,7 @@ struct Roughness {
   std::uint64_t seed = 0;
 };
 
+/// Configuration of emboss.
 struct EmbossConfig {
   CoinShape coin;
   ReliefShape relief;

@@ -6,6 +6,7 @@
 
 namespace tacipc {
 
+/// Size and walls of a picture's relief.
 struct PictureRelief {
   double width_m = 0.0;       // width of the whole picture on the face
   double wall_m = 0.0;        // width of the wall at a step between two pixels

@@ -8,6 +8,7 @@
 
 namespace tacipc {
 
+/// Mesh whose edges are rounded like those of its print.
 struct RoundedMesh {
   std::string unit;  // unit of the file's numbers
   double edge_radius_m = 0.0;
@@ -15,6 +16,7 @@ struct RoundedMesh {
   double relief_m = 0.0;   // depth below the highest point to which the object is kept
 };
 
+/// Exactly one of a ball and a mesh.
 struct IndenterConfig {
   std::optional<double> ball_radius_m;
   double ball_edge_m = 0.0;

@@ -7,6 +7,7 @@
 
 namespace tacipc {
 
+/// Result of wrap.
 struct WrappedObject {
   TriangleMesh mesh;
   Value::Map summary;  // lines for the record; lengths in mm

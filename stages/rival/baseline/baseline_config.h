@@ -69,6 +69,7 @@ struct PhongLight {
   double specular = 0.0;  // specular coefficient, `phong` only
 };
 
+/// Phong shading over a photograph (phong.h).
 struct PhongConfig {
   double ambient = 0.0;  // factor of the background
   int shininess = 0;     // exponent of the reflected light towards the camera
@@ -98,6 +99,7 @@ struct ChangeConfig {
   static ChangeConfig read(ConfigReader& in, const std::string& model);
 };
 
+/// Configuration of baseline.
 struct BaselineConfig {
   std::optional<double> front_depth_m;  // distance of the undeformed front from the camera; absent: from the sensor
   ObjectRays rays = ObjectRays::refracted;

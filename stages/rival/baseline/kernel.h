@@ -19,6 +19,7 @@ Raster folded_gaussian(int size, double sigma);
 /// \pre f > 0
 Raster exponential_kernel(double factor = 1.0);
 
+/// Values outside the image: mirrored about the outermost pixel centres, or constant.
 enum class Border { reflect_101, constant };
 
 /// Correlation Σ k(i, j) f(x + i − w/2, y + j − h/2) with the anchor at index size/2. Outside the image f is mirrored

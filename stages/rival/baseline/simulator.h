@@ -14,6 +14,7 @@
 
 namespace tacipc {
 
+/// Maps and image of one frame.
 struct BaselineFrame {
   FloatImage indentation;            // m, > 0 into the gel, without texture
   FloatImage depth;                  // m along the camera's axis, with texture
@@ -22,6 +23,7 @@ struct BaselineFrame {
   double light_s = 0.0;
 };
 
+/// Simulates the frames of one object in one sensor.
 class BaselineSimulator {
  public:
   /// Scales kernels to the sensor's images.

@@ -16,6 +16,7 @@ using Points2 = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 /// is above 1. Points in no triangle have zero gradients.
 Points2 least_bending_gradients(const Points2& points, const Eigen::VectorXd& values, const Triangles& triangles);
 
+/// Interpolant over the triangles.
 class CloughTocher {
  public:
   /// \pre triangles are counter-clockwise and have an area

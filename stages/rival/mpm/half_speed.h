@@ -8,6 +8,7 @@
 
 namespace tacipc {
 
+/// Change of the markers at half the speed.
 struct SpeedEffect {
   double change =
       0.0;  // √(Σ |u − u′|² / Σ |u′|²) over all markers and frames: u displacement since rest, u′ at half speed

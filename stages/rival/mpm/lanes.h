@@ -45,6 +45,7 @@ TACIPC_INLINE FloatQuad sum_of_nodes(const Lanes& a) {
   return (n0 + n1) + (n2 + n3);
 }
 
+/// Transposes the 4 × 4 matrix with the rows a, b, c, d.
 TACIPC_INLINE void transpose4(FloatQuad& a, FloatQuad& b, FloatQuad& c, FloatQuad& d) {
   const FloatQuad ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5),
                   ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);

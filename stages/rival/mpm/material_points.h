@@ -29,6 +29,7 @@ struct MpmSetup {
   double particle_mass_kg() const { return density_kg_m3 * particle_volume_m3; }
 };
 
+/// State of the simulation.
 class MaterialPoints {
  public:
   /// Particles at `rest_m`, at rest; row i has id i. \pre at least one

@@ -34,6 +34,7 @@ struct ObjectPointsConfig {
   static ObjectPointsConfig read(ConfigReader& in);
 };
 
+/// Configuration of mpm.
 struct MpmConfig {
   LatticeConfig gel = {};
   std::optional<double> density_kg_m3 = {};  // absent: from the sensor, like the next two

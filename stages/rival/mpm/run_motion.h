@@ -46,6 +46,7 @@ struct MpmScene {
 MpmScene make_scene(const MpmConfig& config, const Sensor& sensor, const SampleSpec& sample, const TriangleMesh& object,
                     const std::string& default_face);
 
+/// Frames of a run, and its statistics.
 struct MpmRun {
   std::vector<MpmFrame> frames;
   int sorts = 0;

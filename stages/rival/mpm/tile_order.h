@@ -14,6 +14,7 @@ struct TilePacks {
   int count = 0;
 };
 
+/// Particles in the order of tiles, and their slab.
 struct SortedParticles {
   Slab slab;  // large enough for a drift of kDrift cells, and for points of the object that reach the gel
   std::vector<ParticlePack> packs;  // packs tile by tile, in each tile along z, x, y of their cells

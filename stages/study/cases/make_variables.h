@@ -8,6 +8,7 @@
 
 namespace tacipc {
 
+/// Collects variables with a common prefix.
 class MakeVariables {
  public:
   MakeVariables(std::string prefix, std::string folder) : prefix_(std::move(prefix)), folder_(std::move(folder)) {}

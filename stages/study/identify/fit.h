@@ -9,6 +9,7 @@
 
 namespace tacipc {
 
+/// Result of the fit.
 struct Fit {
   Eigen::VectorXd u;           // most probable unknowns
   Eigen::MatrixXd covariance;  // covariance of u near the optimum, (JᵀJ)⁻¹ with the priors' rows in J

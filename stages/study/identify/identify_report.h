@@ -27,6 +27,7 @@ std::string deviation_text(double sigma);
 
 std::vector<Estimate> estimates_of(const MechanicsModel& model, const Fit& fit, const Posterior& posterior);
 
+/// Everything that the reports show.
 struct IdentifyResult {
   const MechanicsModel& model;
   Fit fit;

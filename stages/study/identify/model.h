@@ -42,6 +42,7 @@ struct MeasurementData {
   std::optional<MarkerData> markers;
 };
 
+/// Model of all measurements of an identification.
 class MechanicsModel {
  public:
   /// \param data in the order of spec.measurements

@@ -35,6 +35,7 @@ struct MeasuredPressAndShear {
   MeasuredPressAndShear(MarkerField press_field, MarkerField shear_field, const MarkerBenchmark& benchmark);
 };
 
+/// Fitted depth and travel, and the remaining errors.
 struct FieldFit {
   double depth_m = 0.0;
   std::string depth_end =

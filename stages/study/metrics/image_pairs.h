@@ -7,6 +7,7 @@
 
 namespace tacipc {
 
+/// An image and its reference.
 struct ImagePair {
   std::string name;  // name of the row in samples.csv
   std::filesystem::path image;

@@ -35,6 +35,7 @@ struct DepthMetrics {
   static DepthMetrics read(ConfigReader& in);
 };
 
+/// Configuration of metrics, of one of two kinds.
 struct MetricsConfig {
   std::string ends_with;  // ending of the names in folders that count
   std::variant<ImageMetrics, DepthMetrics> what;

@@ -41,6 +41,7 @@ struct CardImages {
 /// Reads a finished comparison. \throw DataError if files are missing or lack these numbers
 CardImages read_card_images(const std::string& name, const std::filesystem::path& folder);
 
+/// The finished data sheet.
 struct Card {
   std::string page;                                       // Markdown
   Value::Map values;                                      // the numbers of the page as YAML

@@ -22,6 +22,7 @@ struct ComparisonConfig {
 std::vector<MethodScores> read_comparison(const std::vector<NamedPath>& tables, const ComparisonConfig& config,
                                           const BenchmarkCases& cases);
 
+/// Verdict on the first method.
 struct Verdict {
   bool musts = false;  // the first method meets the required limits in the box
   bool ahead = false;  // the first method leads every other one on SSIM-S, MAE and PSNR in the box

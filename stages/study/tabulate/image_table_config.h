@@ -41,6 +41,7 @@ struct PrintedRow {
   std::optional<std::string> value(const std::string& column) const;
 };
 
+/// Group of printed means.
 struct PrintedRows {
   std::string label;   // note to read before comparing
   std::string source;  // source of the printed numbers
@@ -66,6 +67,7 @@ struct Finding {
       {};  // methods that are `row` with other settings; all must lie on the same side of 1
 };
 
+/// Sheet of pictures below the tables.
 struct SheetConfig {
   std::string name;                           // file name without .png
   std::string alt;                            // alternative text of the picture
@@ -74,6 +76,7 @@ struct SheetConfig {
   std::vector<SheetColumn> columns;
 };
 
+/// Configuration of the page.
 struct ImageTableConfig {
   std::string title;
   std::string caption;      // text below the tables

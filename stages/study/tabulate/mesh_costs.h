@@ -41,6 +41,7 @@ struct MeshCost {
   double largest_error_mm = 0.0;
 };
 
+/// Costs of the meshes of one family.
 struct FamilyCost {
   std::string name;
   std::vector<MeshCost> meshes;

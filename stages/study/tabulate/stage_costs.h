@@ -31,6 +31,7 @@ struct StageCostsConfig {
   static StageCostsConfig read(ConfigReader& in);
 };
 
+/// Cost of one row or sum.
 struct Cost {
   std::string name;
   std::string per;

@@ -22,12 +22,14 @@ struct GelFacts {
 /// Reads the sensor, gel and images of a made sample.
 GelFacts read_gel_facts(const std::filesystem::path& sample_folder);
 
+/// Description of a motion.
 struct MotionFacts {
   std::string name;
   std::string words;      // requested motion, with ranges
   std::string placement;  // placement of the object
 };
 
+/// Facts that all pages of a dataset share.
 struct DatasetFacts {
   std::string name;
   std::optional<std::string> seed;

@@ -17,6 +17,7 @@ struct OtherCost {
   CostColumn costs;
 };
 
+/// Inputs of the first page.
 struct Overview {
   const DatasetFacts& facts;
   const DatasetTally& tally;

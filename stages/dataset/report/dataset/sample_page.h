@@ -11,6 +11,7 @@
 
 namespace tacipc {
 
+/// A sample's page and the pictures that it links.
 struct SamplePage {
   SampleShot shot;
   std::vector<std::pair<std::string, std::string>> pictures;  // JPEG pictures, by names below the pages' folder

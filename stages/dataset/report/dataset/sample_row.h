@@ -29,6 +29,7 @@ struct SampleNumbers {
 /// Reads timings; nothing if there is no such file. \throw DataError if it is malformed
 std::optional<StageTimings> timings_if_there(const std::filesystem::path& file);
 
+/// One sample as the dataset's pages list it.
 struct SampleRow {
   PlannedRow plan;
   SampleStatus status = SampleStatus::unmade;

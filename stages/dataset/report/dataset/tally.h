@@ -31,6 +31,7 @@ inline constexpr std::array<Quantity, 5> kQuantities{{
 inline constexpr std::size_t kDepth = 0, kPressForce = 1, kShearRatio = 2, kTwist = 3,
                              kArea = 4;  // indices in kQuantities
 
+/// Number of samples by status.
 struct StatusCounts {
   std::array<std::size_t, 4> of{};
 
@@ -44,11 +45,13 @@ struct CostColumn {
   void add(const StageTimings& cost);
 };
 
+/// A failed sample and its failure.
 struct FailedSample {
   PlannedRow plan;
   Failure failure;
 };
 
+/// Counts samples and collects their numbers, one sample at a time.
 class DatasetTally {
  public:
   /// \param kept_failures number of failed samples to keep; further ones are only counted

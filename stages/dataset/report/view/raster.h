@@ -23,6 +23,7 @@ struct Viewpoint {
 /// (width over height). \pre points are not empty, `back` is not upright
 Viewpoint viewpoint_of(const std::vector<Vector3>& points, const Vector3& back, double aspect);
 
+/// Picture under construction, with a depth test per sample.
 class Raster {
  public:
   /// Starts with a white picture. \pre width, height ≥ 1

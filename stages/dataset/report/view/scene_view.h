@@ -22,6 +22,7 @@ struct ViewedFront {
   Matrix4 world_from_gel;
 };
 
+/// A gel in all frames of the view.
 struct ViewedGel {
   std::string name;       // empty for a single gel
   Triangles front;        // indices of the rows of a frame, counter-clockwise seen from outside
@@ -30,6 +31,7 @@ struct ViewedGel {
   std::vector<std::string> pictures = {};  // links from the page to its tactile images, "" for a missing one
 };
 
+/// An object in all frames of the view.
 struct ViewedObject {
   std::string name;
   TriangleMesh mesh;
