@@ -56,7 +56,7 @@ std::vector<double> mean_of_carried(const MarkerMotion& motion, const MarkerChoi
 /// Compares the final displacements of another simulator's chosen markers with those of TacIPC at the same rows and
 /// columns.
 struct MotionComparison {
-  double mean_m = 0.0;     // mean displacement of the other simulator in its last frame, m
+  double mean_m = 0.0;     // mean displacement of the other simulator at equal travel, m
   double ratio = 0.0;      // `mean_m` over the mean displacement of TacIPC
   double error_m = 0.0;    // mean length of the difference at equal travel, m
   double largest_m = 0.0;  // largest length of the difference, m
