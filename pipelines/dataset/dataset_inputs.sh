@@ -7,7 +7,7 @@ set -euo pipefail
 export LC_ALL=C
 dataset=$1 config=$2
 # The reference time is that of a file made here now, because the clock of a file server may differ.
-{ mkdir -p "$dataset" && now=$(mktemp "$dataset/.now-XXXXXX"); } 2> /dev/null || exit 0  # plan will say what is wrong
+{ mkdir -p "$dataset" && now=$(mktemp "$dataset/.now-XXXXXX"); } 2> /dev/null || exit 0  # the plan reports the error
 trap 'rm -f "$now"' EXIT
 # Missing files are reported by the plan.
 named() { echo "$config"; cat "$dataset/plan/inputs.txt" 2> /dev/null || true; }

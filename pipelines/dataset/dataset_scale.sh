@@ -12,7 +12,7 @@ all() { find "$dataset" -maxdepth "$1" -name "$2.timings.yaml"; }
 echo '| | runs | of processor, s | one after the other, s | largest process, MB |'
 echo '|---|---|---|---|---|'
 echo "| plan | $(cost "$dataset/plan/plan.timings.yaml")"
-# For samples, the table made by the card has seconds and memory.
+# Seconds and memory of samples are in the table that the card made.
 for stage in press render; do
   "$bin/tacipc" table "$dataset/pack/timings.csv" --columns "${stage}_processor_s,${stage}_wall_s,${stage}_peak_memory_mb" |
     awk -v stage="$stage" '{ processor += $1; wall += $2; if ($3 > memory) memory = $3 }

@@ -37,4 +37,4 @@ done
 if [ "${RETRY:-}" != yes ] && current "$failed"; then exit 0; fi
 prepare_ledger
 run_noting_failure "$@"
-if [ -n "$said" ] && [ -e "$record" ]; then echo "$said" >&2; fi  # warnings; those of samples, too many, are in their logs
+if [ -n "$said" ] && [ -e "$record" ]; then echo "$said" >&2; fi  # warnings; those of samples are only in their logs, because there are too many

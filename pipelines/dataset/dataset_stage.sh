@@ -13,7 +13,7 @@ dataset=$1 run=$2 stage=$3 record=$4 prerequisites=$5
 shift 5
 folder=${record%/*} sample=${record#"$dataset"/samples/*/}  # without processes: a tiny sample is as quick as these
 sample=${sample%/"$stage.yaml"}
-sample=${sample%/"$stage"}  # what is left for a grasp is its name, for the images of a finger that with /left or /right
+sample=${sample%/"$stage"}  # the rest is the grasp's name; for the images of a finger with /left or /right
 failed=$folder/$stage.failed.yaml
 # shellcheck source=pipelines/dataset/dataset_ledger.sh
 . "${BASH_SOURCE[0]%/*}/dataset_ledger.sh"

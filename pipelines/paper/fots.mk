@@ -75,7 +75,7 @@ $(FOTS)/fit/marker_fit.yaml: $(MARKERS) $(foreach v,$(MARKERS_VARIANTS),$(foreac
 	$(call run,marker_fit,--config $(MARKERS) --pressed $(SHARED)/$(MARKERS_PRESSED) --sheared $(SHARED)/$(MARKERS_SHEARED) \
 	  --runs $(foreach v,$(MARKERS_VARIANTS),$(MARKERS_DEPTHS:%=$(v)=$(FOTS)/runs/$(v)/%)) $(fots_rival_runs) $(foreach a,$(ALSO:%/=%),$(notdir $(a))=$(a)))
 
-# The same with rows of Tacchi, for pipelines/paper/paper_markers.mk:
+# Additional rows of Tacchi, for pipelines/paper/paper_markers.mk:
 # - as published, with its particles in a block as large as the gel, and its material: for the sensor's stiffer material
 # the published step is too long;
 # - the sensor's material with a shorter step;

@@ -64,7 +64,7 @@ RIVALS_BOARD3_RUNS := $(foreach m,$(RIVALS_MESHES),$(foreach s,shear twist,$(cal
   $(foreach t,tacchi_legacy tacchi_physical,$(foreach s,shear twist,$(RIVALS_BOARD3)/$(t)/$(s)))
 RIVALS_BOARD3_FACTORS := $(RIVALS_FRICTIONS:%=$(RIVALS_BOARD3)/friction_%/press) $(RIVALS_FACTORS:%=$(RIVALS_BOARD3)/%/shear)
 
-# The same with a ball, coarse and short.
+# Quick variant with a ball, coarse and short.
 RIVALS_QUICK := $(RIVALS_RUNS)/quick
 $(RIVALS_QUICK)/ball/indenter.yaml: configs/studies/paper/markers/quick_ball.yaml $(always) | build
 	$(call run,indenter,--config $<)

@@ -123,7 +123,7 @@ paper-real: $(PAPER_REAL)/tabulate.yaml $(if $(RIVALS_TABLE),rivals)
 	@$(if $(PAPER_MORE),$(call make_again,REBUILD=no CASES=$(PAPER_MORE) rivals))
 	@echo; echo "Look at $(PAPER_REAL)/table.md and $(PAPER_REAL)/paper_results"
 
-# In addition to the shipped photographs those with unknown depths: without Tacchi, whose runs need the depths.
+# Additional photographs with unknown depths: without Tacchi, whose runs need the depths.
 PAPER_MORE := $(if $(and $(filter gelsight_sim2real,$(cases_name)),$(wildcard $(SHARED)/data/gsmini_balls)),configs/studies/sim2real/gsmini_balls.yaml)
 
 # Part of the paper's page (paper.mk).

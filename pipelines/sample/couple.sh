@@ -19,7 +19,7 @@ shift
 press=("$@")
 exact_after=6
 mkdir -p "$out/windows" "$out/solved"
-exec 9>> "$out/windows.lock" # which stages do not keep when this is killed
+exec 9>> "$out/windows.lock" # stages do not keep this lock when the script is killed
 flock -w 5 9 || { echo "couple: another run works in $out" >&2; exit 1; }
 summary() { "$bin/tacipc" get "$1/robot.yaml" "summary.$2"; }
 

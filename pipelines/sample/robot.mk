@@ -33,7 +33,7 @@ $(1)/press.yaml: $(1)/robot/robot.yaml $(always) | build
 	  --sample $(1)/robot/scene.yaml $(if $(filter yes,$(ALONE)),,--solved $(1)/solved))
 $(1)/gels/%/render/render.yaml: $(1)/press.yaml configs/sensors/$(4).yaml configs/render/all_frames.yaml $$(REFERENCES) $(always) | build
 	$$(call run,render,--press $(1)/gels/$$*/press --gel $$(OUT)/gels/$(4)-$(5)/gel.msh --sensor configs/sensors/$(4).yaml --config configs/render/all_frames.yaml)
-# Which gels there are.
+# Names of the gels.
 $(1)/pads.mk: $(3) FORCE | build
 	$$(call replace_if_changed_by,$$(call plain_pads,$(3)) && echo "robot_pads_$(2) := $$$$($$(call robot_pads,$(3)) | paste -s -d ' ')")
 include $(1)/pads.mk

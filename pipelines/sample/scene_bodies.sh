@@ -8,7 +8,7 @@ tacipc=$1 scene=$2 gels='' soft='' files='' surfaces='' absent=-
 folder=./
 case $scene in */*) folder=${scene%/*}/ ;; esac
 fault() { echo "SCENE: $scene: body $name names '$file', $1" >&2; exit 1; }
-file_of() { # file_of NAMED: sets file to what a body names, as seen from here
+file_of() { # file_of NAMED: sets file to the path of a body's file, relative to the current folder
   case $1 in
     "$absent") file='' && return ;;
     /*) file=$1 ;;
