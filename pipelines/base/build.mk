@@ -70,7 +70,7 @@ build: $(BUILD)/build.ninja ## development: Build all stages
 	@$(call compile,$(BUILD),$(programs_wanted))
 endif
 
-PREFIX ?= out/prefix#  where install puts everything
+PREFIX ?= out/prefix#  target folder of install
 .PHONY: install
 install: build ## development: Programs, configurations and pipelines into PREFIX=, which may be moved
 	@cmake --install $(BUILD) --prefix '$(strip $(PREFIX))' > /dev/null

@@ -3,25 +3,25 @@
 # docs/datasets.md is the guide. All files of a dataset lie in $(OUT)/datasets/<name of the file>.
 
 CONFIG ?=#       the dataset: a file of configs/datasets or your own
-PARTS  ?= 1#     into how many parts the samples are divided, for a cluster;
-PART   ?=#       the one to make, from 0 on
+PARTS  ?= 1#     number of parts of the samples, for a cluster
+PART   ?=#       part to make, from 0
 SHARDS ?= 8#     parts that submit hands to the cluster
-SITE   ?= configs/datasets/slurm/default.sh#  what submit needs to know of it
-RETRY  ?=#       yes: try failed samples again
+SITE   ?= configs/datasets/slurm/default.sh#  settings of the cluster, for submit
+RETRY  ?=#       yes: make failed samples again
 PILOT  ?= 0#     samples that estimate makes first, to measure
 SAMPLES ?=#      folders of samples below samples/, for dataset-some
 K      ?= 3#     samples that reproduce makes again
-STOP_AFTER ?=#   failures in a row after which a run stops (default: as the dataset says)
-REPORT ?= configs/datasets/report/default.yaml#  how much dataset-report shows sample by sample
+STOP_AFTER ?=#   successive failures after which a run stops (default: from the dataset)
+REPORT ?= configs/datasets/report/default.yaml#  number of samples with pages in dataset-report
 $(foreach v,CONFIG PARTS PART SHARDS SITE RETRY PILOT SAMPLES K STOP_AFTER REPORT,$(eval override $(v) := $(strip $($(v)))))
 
-DATASET_PLANNED := plan dataset dataset-part dataset-shared dataset-last retry submit estimate dataset-some drop#  goals that need the plan's rules;
-DATASET_READ := status dataset-report reproduce bundle clean-plan clean-press clean-render#         and those that only look into its folder
+DATASET_PLANNED := plan dataset dataset-part dataset-shared dataset-last retry submit estimate dataset-some drop#  targets that need the plan's rules
+DATASET_READ := status dataset-report reproduce bundle clean-plan clean-press clean-render#         targets that only read its folder
 DATASET_GOALS := $(DATASET_PLANNED) $(DATASET_READ)
 .PHONY: $(DATASET_GOALS) dataset-samples
 
 # A Slurm of one machine, to try submit.
-LOCAL_SLURM ?= $(or $(TMPDIR),/tmp)/local-slurm-$(shell id -un)#  its folder
+LOCAL_SLURM ?= $(or $(TMPDIR),/tmp)/local-slurm-$(shell id -un)#  folder of that Slurm
 packages_for_local-slurm := cluster
 .PHONY: local-slurm local-slurm-stop
 local-slurm: | packages ## datasets: Start a Slurm on this machine alone, to try submit (says what to export)
@@ -176,7 +176,7 @@ endif
 endif
 
 DATASET_RETRY := $(if $(filter retry,$(MAKECMDGOALS)),yes,$(RETRY))
-dataset_members = $(if $(DATASET_ENSEMBLE),$(foreach s,$(1),$(DATASET_MEMBERS_$(s))))# presses of an ensemble beside these samples
+dataset_members = $(if $(DATASET_ENSEMBLE),$(foreach s,$(1),$(DATASET_MEMBERS_$(s))))# presses of an ensemble for these samples
 dataset-samples: $(DATASET_LIST:%=$(DATASET_DIR)/samples/%/render/render.yaml) $(call dataset_members,$(DATASET_LIST))
 
 plan: $(DATASET_DIR)/plan/plan.yaml ## datasets: Samples of a dataset, without making them: CONFIG=configs/datasets/mini.yaml

@@ -4,11 +4,11 @@
 $(call uses,dataset/dataset)
 
 CARD   ?= default#     a file of configs/datasets/card
-FORMAT ?= webdataset#  of repack: a file of configs/datasets/repack
-CONFIG ?=#             the dataset's configuration, by which its folder is named; or instead
-DATASET_DIR ?= $(if $(strip $(CONFIG)),$(OUT)/datasets/$(basename $(notdir $(strip $(CONFIG)))))#  the folder
+FORMAT ?= webdataset#  repack: a file of configs/datasets/repack
+CONFIG ?=#             the dataset's configuration, after which its folder is named; alternatively
+DATASET_DIR ?= $(if $(strip $(CONFIG)),$(OUT)/datasets/$(basename $(notdir $(strip $(CONFIG)))))#  the dataset's folder
 pack_planned = $(filter-out none,$(shell $(BIN)/tacipc get '$(strip $(DATASET_DIR))/plan/dataset.yaml' outputs.pack --default full 2> /dev/null))
-PACK   ?= $(or $(pack_planned),full)# a file of configs/datasets/pack; as the dataset says
+PACK   ?= $(or $(pack_planned),full)# a file of configs/datasets/pack (default: from the dataset)
 $(foreach v,CARD FORMAT DATASET_DIR PACK,$(eval override $(v) := $(patsubst %/,%,$(strip $($(v))))))
 
 .PHONY: pack repack dataset-pack dataset-repack

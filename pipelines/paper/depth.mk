@@ -5,9 +5,9 @@
 $(call uses,paper/sim2real paper/paper_real dataset/depthnet)
 
 DEPTH       := $(OUT)/depth
-DEPTH_POSES  ?= 20#         depth-benchmark: of each object
+DEPTH_POSES  ?= 20#         depth-benchmark: poses of each object
 DEPTH_SEEDS  ?= 1 2 3 4 5#  networks of each simulator
-DEPTH_EPOCHS ?= 15#         of their training
+DEPTH_EPOCHS ?= 15#         epochs of each training
 $(foreach v,DEPTH_POSES DEPTH_SEEDS DEPTH_EPOCHS,$(eval override $(v) := $(strip $($(v)))))
 
 DEPTH_PRINTED := cone cross_lines curved_surface cylinder cylinder_shell cylinder_side dot_in dots flat_slab hexagon line moon parallel_lines sphere2 triangle

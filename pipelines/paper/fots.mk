@@ -101,7 +101,7 @@ FOTS_KEYS_tacchi_legacy_grid_and_density := $(FOTS_KEYS_tacchi_legacy_grid_0400u
 FOTS_NUMERICS_tacchi_physical := $(RIVALS_PHYSICAL)
 FOTS_KEYS_tacchi_physical := gel.spacing_mm=0.25 grid.spacing_mm=0.5 \
   object.mass_ratio=1.0e+7 object.press_speed_mm_s=100 object.move_speed_mm_s=100 $(FOTS_TACCHI_KEYS)
-FOTS_CHECKED ?= $(firstword $(MARKERS_DEPTHS))# depths at which what is checked at half the speed is
+FOTS_CHECKED ?= $(firstword $(MARKERS_DEPTHS))# depths of runs that are checked at half the speed
 fots_unchecked = $(and $(filter tacchi_physical,$(1)),$(filter-out $(FOTS_CHECKED),$(2)),-half_speed)
 # $(call fots_tacchi_run,row,depth)
 fots_tacchi_run = $(call tacchi_run,$(FOTS)/runs/$(1)/$(2),name=$(1)_$(2) numerics=$(FOTS_NUMERICS_$(1)) \

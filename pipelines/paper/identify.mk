@@ -1,7 +1,7 @@
 # Identifies a sensor's mechanics from measured forces and marker vectors: make -f Makefile.data identify
 # IDENTIFY=configs/studies/identify/gsmini_force.yaml
 # The file lists the known, measured (below SHARED) and simulated data; docs/identify.md has the keys and results.
-IDENTIFY ?= configs/studies/identify/gsmini_force.yaml#  what identify fits
+IDENTIFY ?= configs/studies/identify/gsmini_force.yaml#  file of the identification
 override IDENTIFY := $(strip $(IDENTIFY))
 identify_name := $(basename $(notdir $(IDENTIFY)))
 IDENTIFIED := $(OUT)/identify/$(identify_name)

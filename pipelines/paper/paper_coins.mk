@@ -5,7 +5,7 @@ $(call uses,paper/paper)
 
 COINS_SENSOR := configs/sensors/mctac.yaml
 COINS_MOTION := configs/motions/press_0500um.yaml
-COINS_LAST   := frame_0005# the end of that motion
+COINS_LAST   := frame_0005# last frame of that motion
 coins_mesh   = --object $(OUT)/objects/$(1)/object.ply
 coins_object = $(coins_mesh) --object-config configs/objects/embossed.yaml
 

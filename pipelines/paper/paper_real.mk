@@ -23,7 +23,7 @@ PAPER_TACCHI_KEYS_tacchi-60    := object.samples_per_mm2=60
 PAPER_TACCHI_KEYS_tacchi-6     := object.samples_per_mm2=6
 PAPER_TACCHI_KEYS_tacchi-100um := motion.frame_criterion=within_100um
 PAPER_TACCHI_KEYS_tacchi-image := object.samples_per_mm2=6 motion.frame_criterion=within_100um
-PAPER_TACCHI_KEYS_quick := gel.spacing_mm=0.4 grid.spacing_mm=0.4 time.step_s=1.0e-4#  of paper-quick: a tenth of the time
+PAPER_TACCHI_KEYS_quick := gel.spacing_mm=0.4 grid.spacing_mm=0.4 time.step_s=1.0e-4#  paper-quick: a tenth of the time
 $(foreach t,$(PAPER_TACCHI),$(eval $(call changed_config,$(PAPER_REAL)/$(t)/numerics.yaml,$(PAPER_CONFIGS)/mpm.yaml,\
   $(PAPER_TACCHI_KEYS_$(t)) $(PAPER_TACCHI_KEYS_$(PAPER_KIND)))))
 

@@ -4,16 +4,16 @@
 # docs/sensors.md explains the photographs, docs/calibrate.md the fit.
 $(call uses,sample/sample)
 
-SENSOR_FILE ?=#              the sensor as far as one knows it (start from a file of configs/sensors)
+SENSOR_FILE ?=#              the sensor file as far as it is known (start from a file of configs/sensors)
 BACKGROUND  ?=#              photograph without contact, PNG of the camera's size
 PHOTOGRAPHS ?=#              folder of photographs of a ball pressed into the gel
-LABELS      ?=#              lines `image.png (x, y) radius` in pixels, where its contacts are
+LABELS      ?=#              lines `image.png (x, y) radius` in pixels: its contacts
 BALL_MM     ?= 3#            radius of that ball
-GAP_MM      ?= 0.02#         labels show where ball and gel are this far apart
-LABEL_PX    ?= 1#            how well a label's centre and radius are known
-DEEPEST_MM  ?= 1#            how deep the ball is pressed in the simulation: no label may show more
-BALL_PRESS  ?= configs/studies/sim2real/gsmini_balls/press.yaml# slow, surfaces near together
-FIT         ?=#              a configuration with sensor_fit (default: configs/sensors/calibrate/ring.yaml or list.yaml, as the LEDs stand)
+GAP_MM      ?= 0.02#         gap between ball and gel at the labelled rim, mm
+LABEL_PX    ?= 1#            standard deviation of a label's centre and radius, px
+DEEPEST_MM  ?= 1#            depth of the simulated press, mm: no label may show more
+BALL_PRESS  ?= configs/studies/sim2real/gsmini_balls/press.yaml# slow press with a small gap
+FIT         ?=#              a configuration with sensor_fit (default: configs/sensors/calibrate/ring.yaml or list.yaml, by the LEDs' arrangement)
 CALIBRATE_VARIABLES := SENSOR_FILE BACKGROUND PHOTOGRAPHS LABELS BALL_MM GAP_MM LABEL_PX DEEPEST_MM BALL_PRESS FIT
 $(foreach v,$(CALIBRATE_VARIABLES),$(eval override $(v) := $(strip $($(v)))))
 

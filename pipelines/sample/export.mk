@@ -6,7 +6,7 @@ $(call uses,sample/sample)
 # FORMAT=video is taken from the command line; otherwise VTK and glTF (the variable belongs to `repack`, whose file has
 # another default)
 export_format := $(or $(patsubst FORMAT=%,%,$(filter FORMAT=%,$(MAKEOVERRIDES))),vtk)
-SLOWER ?= auto#  of a video: how many times slower than the motion (auto: so that single frames are seen)
+SLOWER ?= auto#  video: slowdown relative to the motion (auto: single frames are visible)
 slower_given := $(filter command,$(firstword $(origin SLOWER)))
 override SLOWER := $(strip $(SLOWER))
 

@@ -3,13 +3,13 @@
 # SENSOR, MESH, PRESS, FRICTION, UNIT, SCALE, WRAP, FORCE_N and NAME have the same meaning as for `sample`.
 $(call uses,sample/sample)
 
-MASS_G  ?= 80#      of the object
-TURN    ?=#         degrees by which it is turned about the vertical before it is gripped (0),
-GRIP    ?=#         mm from its centre of mass to where it is gripped, along its own axes (0,0,0); where neither is given, a grasp is drawn:
-SEED ?= 1#    another number, another grasp
-LIFT_MM ?= 10#      how far it is lifted
-LIFT_STEPS ?= 20#   frames of that: 0.2 s with time steps of 10 ms
-GRASP   ?=#         or a file of your own (docs/grasp.md) in place of all these and FORCE_N
+MASS_G  ?= 80#      mass of the object, g
+TURN    ?=#         rotation of the object about the vertical before the grip, degrees (0)
+GRIP    ?=#         grip relative to its centre of mass, mm, along its own axes (0,0,0). Without TURN and GRIP, a grasp is drawn
+SEED ?= 1#    seed of the drawn grasp
+LIFT_MM ?= 10#      height of the lift, mm
+LIFT_STEPS ?= 20#   frames of the lift: 0.2 s with time steps of 10 ms
+GRASP   ?=#         a file of your own (docs/grasp.md) that replaces all these and FORCE_N
 # Variables given on the command line.
 grasp_given := $(foreach v,MASS_G TURN GRIP SEED LIFT_MM LIFT_STEPS,$(if $(filter command,$(firstword $(origin $(v)))),$(v))) $(filter FORCE_N,$(given))
 $(foreach v,MASS_G TURN GRIP SEED LIFT_MM LIFT_STEPS GRASP,$(eval override $(v) := $(strip $($(v)))))

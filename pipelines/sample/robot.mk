@@ -4,7 +4,7 @@
 $(call uses,sample/sample sample/grasp)
 
 TASK  ?=#      a task of configs/tasks, or a file of your own
-ALONE ?= no#   yes: the robot moves by MuJoCo's own contacts, and the gels follow; no: it feels what the gels answer
+ALONE ?= no#   yes: the robot moves by MuJoCo's own contacts, and the gels follow; no: the gels' response loads the robot
 $(foreach v,TASK ALONE,$(eval override $(v) := $(strip $($(v)))))
 
 ifeq ($(filter yes no,$(ALONE)),)

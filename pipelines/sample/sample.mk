@@ -3,31 +3,31 @@
 SENSOR   ?= mctac#            a file of configs/sensors
 MESH     ?= adaptive_0250um#  a file of configs/gels
 PRESS    ?= default#          a file of configs/press
-FRICTION ?=#                  friction coefficient (default: as PRESS says)
-MOTION   ?= press#            press and what follows it: shear twist tilt hold release, joined by +; or a file.yaml with motion and placement
-DEPTH_MM ?= 0.5#              how deep the lowest point goes
+FRICTION ?=#                  friction coefficient (default: from PRESS)
+MOTION   ?= press#            press and the following motions: shear twist tilt hold release, joined by +; or a file.yaml with motion and placement
+DEPTH_MM ?= 0.5#              depth of the lowest point
 FORCE_N  ?=#                  press until this force instead of a depth
-DENSITY  ?= 7800#             of the object, kg/m3, for FORCE_N
+DENSITY  ?= 7800#             density of the object, kg/m3, for FORCE_N
 STEPS    ?= 5#                frames of the press
-SHEAR_MM  ?= 0.5#             how far it is dragged
-DIRECTION ?= 0#               where to: degrees from x (image right) towards y (image down); of tilt too
-TWIST_DEG ?= 10#              how far it is turned about z
-TILT_DEG  ?= 5#               how far it is tilted
+SHEAR_MM  ?= 0.5#             sideways travel
+DIRECTION ?= 0#               direction of shear and tilt: degrees from x (image right) towards y (image down)
+TWIST_DEG ?= 10#              rotation about z
+TILT_DEG  ?= 5#               tilt angle
 MOVE_STEPS ?= 20#             frames of each motion after the press
-UNIT     ?= auto#             of the object's file: m, cm, mm, um, in (default: as its format or name says, part_cm.stl, else mm)
-SCALE    ?= 1#                of the object; fit: the side that presses fills nine tenths of the sensor's window
+UNIT     ?= auto#             unit of the object's file: m, cm, mm, um, in (default: from its format or name, part_cm.stl; otherwise mm)
+SCALE    ?= 1#                scale of the object; fit: the side that presses fills nine tenths of the sensor's field of view
 SHEET_MM ?=#                  thickness of a plate made of each open surface (default: one side of it is pressed)
 WRAP     ?=#                  yes, or a radius in mm: press a closed surface wrapped around the mesh: it keeps undercuts,
                             # and bridges gaps that a ball of that radius does not get into
 UP       ?=#                  side of the object that looks away from the gel: +x -x +y -y +z -z
-FACE     ?=#                  side that presses (default: opposite of UP, else that of most relief in the window)
+FACE     ?=#                  side that presses (default: opposite of UP, otherwise that of most relief in the field of view)
 ROTATE   ?= 0#                degrees about the sensor's z axis
-CENTER   ?= 0,0#              where on the gel (mm) the centre of the object's bounding box lands (default: most relief in the middle, if no side is named)
-TURNS    ?= 0 90#             gallery: degrees about the sensor's z axis that each side is pressed at: 0 90 180 270
-NAME     ?= $(basename $(notdir $(OBJECT)))# of the sample
+CENTER   ?= 0,0#              position of the bounding box's centre on the gel, mm (default: most relief in the middle, if no side is named)
+TURNS    ?= 0 90#             gallery: rotations of each side about the sensor's z axis, degrees: 0 90 180 270
+NAME     ?= $(basename $(notdir $(OBJECT)))# name of the sample
 SAMPLE_VARIABLES := SENSOR MESH PRESS FRICTION MOTION DEPTH_MM FORCE_N DENSITY STEPS SHEAR_MM DIRECTION TWIST_DEG TILT_DEG MOVE_STEPS \
   UNIT SCALE SHEET_MM WRAP UP FACE ROTATE CENTER TURNS NAME
-given := $(foreach v,$(SAMPLE_VARIABLES),$(if $(filter command,$(firstword $(origin $(v)))),$(v)))# on the command line
+given := $(foreach v,$(SAMPLE_VARIABLES),$(if $(filter command,$(firstword $(origin $(v)))),$(v)))# variables given on the command line
 $(foreach v,$(SAMPLE_VARIABLES),$(eval override $(v) := $(strip $($(v)))))
 
 .PHONY: sample track gallery
@@ -175,7 +175,7 @@ ifneq ($(filter-out 0 90 180 270,$(TURNS)),)
   $(error TURNS: '$(TURNS)' must be some of 0 90 180 270)
 endif
 endif
-GALLERY_SIDES := +x -x +y -y +z -z# in the order of the record
+GALLERY_SIDES := +x -x +y -y +z -z# sides in the order of the record
 GALLERY_POSES := $(foreach s,$(GALLERY_SIDES),$(foreach t,$(TURNS),$(s)_$(t)))
 $(SAMPLE)/gallery/%/sample.yaml: $(SAMPLE)/asked.yaml $(SAMPLE)/object/decimate.yaml
 	$(call replace_if_changed_by,bash pipelines/sample/pose.sh $(BIN)/tacipc $^ $(subst _, ,$*))

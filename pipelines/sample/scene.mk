@@ -4,7 +4,7 @@
 $(call uses,sample/sample)
 
 SCENE ?=#                  a file with the section `bodies`
-SOFT  ?= uniform_0500um#   a file of configs/gels: how soft bodies that are given as a surface are filled with tetrahedra
+SOFT  ?= uniform_0500um#   a file of configs/gels: tetrahedra of soft bodies that are given as a surface
 $(foreach v,SCENE SOFT,$(eval override $(v) := $(strip $($(v)))))
 
 .PHONY: scene

@@ -4,8 +4,8 @@ $(call uses,verification/verification)
 
 campaign_asked := $(filter campaign campaign-part,$(MAKECMDGOALS))
 grasps_asked := $(filter grasp-campaign,$(MAKECMDGOALS))
-SEED ?= 1#    of the random cases
-N    ?= $(if $(campaign_asked),10000,300)#  how many
+SEED ?= 1#    seed of the random cases
+N    ?= $(if $(campaign_asked),10000,300)#  number of cases
 override SEED := $(strip $(SEED))
 override N := $(strip $(N))
 part_asked := $(filter campaign-part,$(MAKECMDGOALS))
