@@ -27,8 +27,8 @@ struct MarkerPicture {
   std::vector<ContactPoint> contacts;
 };
 
-/// Pictures of the `chosen` frames. Displacements are since rest up to the end of the press and in the last frame, and
-/// since the end of the press in the frames between. Empty if press wrote neither markers nor contact states.
+/// Pictures of the `chosen` frames. Displacements count since rest up to the end of the press, and since that end in
+/// later frames. The last frame has a picture of each kind. Empty if press wrote neither markers nor contact states.
 /// \param frames number of frames
 /// \param press_end frame at which the press ended
 /// \throw DataError if an array has a wrong shape or value
