@@ -1,4 +1,4 @@
-// Measures what material points cost: steps under a press on one and two threads, beside the rate of memory.
+// Measures the cost of material points: steps under a press on one and two threads, compared with the memory bandwidth.
 #include <fmt/core.h>
 #include <tbb/global_control.h>
 
@@ -30,24 +30,24 @@ const StageSpec kBench{.name = "bench_mpm",
 using bench::processor_s;
 using bench::wall_s;
 
-/// One way to run the gel, measured while an object presses into it.
+/// One configuration of the gel, measured while an object presses into it.
 struct MpmCost {
   std::string name;
   std::size_t particles = 0;
   std::size_t nodes = 0;
-  double step_s = 0.0;           // of the simulation
-  double press_steps = 0.0;      // for 1 mm at the configured speed
+  double step_s = 0.0;           // time step of the simulation
+  double press_steps = 0.0;      // steps for 1 mm at the configured speed
   double bytes = 0.0;            // memory traffic per particle and step
   double processor_rate = 0.0;   // particles · steps per second of processor time, one thread
-  double one_thread_rate = 0.0;  // … of wall time
+  double one_thread_rate = 0.0;  // particles · steps per second of wall time, one thread
   double two_threads_rate = 0.0;
 };
 
-/// Bytes per second of processor time of a = b + s c on one thread, over arrays far larger than any cache: the
-/// yardstick for work that only streams through memory. Written bytes count twice, as they are first fetched. Best of
-/// `repeats`.
+/// Memory bandwidth, bytes per second of processor time for a = b + s c on one thread, over arrays far larger than any
+/// cache. It is the yardstick for work that only streams through memory. Written bytes count twice, because they are
+/// first fetched. Best of `repeats`.
 double memory_bytes_per_s(int repeats) {
-  constexpr std::size_t kFloats = std::size_t{1} << 25;  // 128 MiB each
+  constexpr std::size_t kFloats = std::size_t{1} << 25;  // 128 MiB per array
   std::vector<float> a(kFloats, 0.0f), b(kFloats, 1.0f), c(kFloats, 2.0f);
   double least_s = std::numeric_limits<double>::infinity();
   for (int repeat = 0; repeat < repeats; ++repeat) {
@@ -77,10 +77,10 @@ std::string mpm_page(const std::vector<MpmCost>& costs, double memory_bytes_per_
   return out;
 }
 
-/// Bytes of one node in one step: zeroed, added to and updated (fetched and written back each), read.
+/// Bytes of one node in one step: zeroed, added to and updated (fetched and written back each), and read.
 constexpr double kBytesPerNodeStep = 16.0 * (2 + 2 + 2 + 1);
 
-/// An object that stands a cell above the gel and goes down with every step.
+/// Object that starts one cell above the gel and moves down with every step.
 class Press {
  public:
   explicit Press(const MpmScene& scene)
@@ -107,7 +107,7 @@ MpmCost measure(const std::filesystem::path& file, const Sensor& sensor, const T
   constexpr int kRepeats = 5;
   const auto config = read_config<MpmConfig>(file);
   const MpmScene scene = make_scene(config, sensor, {}, object, "+z");
-  // About a tenth of a second each, at rates of this decade.
+  // Number of steps that takes about a tenth of a second per measurement on current processors.
   const int count = std::max(4, static_cast<int>(5e6 / static_cast<double>(scene.lattice.rest_m.rows())));
   MpmCost cost{.name = fmt::format("`{}`", file.stem().string()),
                .particles = static_cast<std::size_t>(scene.lattice.rest_m.rows()),

@@ -1,4 +1,5 @@
-// Measures what rendering costs: frames on one and two threads, tracing beside Embree's own rate, scene updates.
+// Measures the cost of rendering: frames on one and two threads, tracing compared with Embree's own rate, scene
+// updates.
 #include <fmt/core.h>
 #include <tbb/global_control.h>
 
@@ -32,21 +33,22 @@ const StageSpec kBench{
 using bench::processor_s;
 using bench::wall_s;
 
-/// One way to render, measured.
+/// Measured cost of one render configuration.
 struct RenderCost {
   std::string name;
   std::size_t lights = 0;
   int subpixels = 1;
   int led_samples = 1;
-  double processor_ms = 0.0;   // of a frame on one thread, whatever else runs on the machine
-  double one_thread_ms = 0.0;  // a frame: rays, light, colours, codes; no files, no scene update
+  double processor_ms = 0.0;  // processor time of a frame on one thread, independent of the machine's load
+  double one_thread_ms =
+      0.0;  // wall time of a frame: rays, light, colours, grey levels; without files and scene update
   double two_threads_ms = 0.0;
-  double must_ms = 0.0;      // on two threads
-  double camera_rays = 0.0;  // of the logged picture
+  double must_ms = 0.0;      // limit on two threads
+  double camera_rays = 0.0;  // number of camera rays of the logged picture
   double shadow_rays = 0.0;
-  double traced_s = 0.0;        // our way to Embree for those rays, one thread
+  double traced_s = 0.0;        // time of RayScene for those rays, one thread
   double embree_s = 0.0;        // Embree's own time for them
-  double logged_frame_s = 0.0;  // the picture the rays were logged from, one thread
+  double logged_frame_s = 0.0;  // time of the picture from which the rays were logged, one thread
 
   double tracing_share() const { return traced_s / logged_frame_s; }
   double of_embree() const { return embree_s / traced_s; }
@@ -54,12 +56,12 @@ struct RenderCost {
 
 struct SceneUpdate {
   std::size_t triangles = 0;
-  double membrane_ms = 0.0;  // vertices and normals of the next frame
-  double tree_ms = 0.0;      // Embree's
+  double membrane_ms = 0.0;  // update of vertices and normals for the next frame
+  double tree_ms = 0.0;      // update of Embree's tree
 };
 
-/// `load` is the number of runnable processes of the last minute on `cores` cores: the more of them, the less wall
-/// times say.
+/// Page of the results. `load` is the number of runnable processes in the last minute on `cores` cores; wall times are
+/// less reliable the more there are.
 std::string render_page(const std::vector<RenderCost>& costs, const SceneUpdate& update, const std::string& processor,
                         double load, unsigned cores) {
   std::string frames, tracing;
@@ -77,7 +79,7 @@ std::string render_page(const std::vector<RenderCost>& costs, const SceneUpdate&
                      update.tree_ms, update.membrane_ms + update.tree_ms);
 }
 
-/// Least seconds of several runs, by a clock.
+/// Least time of several runs, s, by a clock.
 template <typename Work>
 double least_s(int repeats, const Work& work, double (*clock_s)() = wall_s) {
   double least = std::numeric_limits<double>::infinity();
@@ -89,7 +91,7 @@ double least_s(int repeats, const Work& work, double (*clock_s)() = wall_s) {
   return least;
 }
 
-/// The sensor with eight equal lights on the ring of its first LED, each a group.
+/// Sensor with eight equal light sources on the ring of its first LED, each a group.
 Sensor with_eight(Sensor sensor, double size_m) {
   const Led first = sensor.leds.front();
   const double radius = first.position_m.head<2>().norm();
@@ -110,7 +112,7 @@ Sensor with_eight(Sensor sensor, double size_m) {
   return sensor;
 }
 
-/// One frame from rays to codes.
+/// Renders one frame, from rays to grey levels.
 void render_frame(const RayScene& scene, const Membrane& membrane, const Sensor& sensor, const TraceSettings& settings,
                   const SurfaceFields& fields, double exposure) {
   const TraceResult traced = trace(scene, membrane, sensor, settings, fields);
@@ -132,7 +134,7 @@ RenderCost measure(const std::string& name, const RayScene& scene, const Membran
                   .subpixels = settings.subpixels,
                   .led_samples = sensor.leds.front().size_m[0] > 0.0 ? settings.led_samples : 1,
                   .must_ms = must_ms};
-  // The exposure belongs to the sensor and is found once, from its reference.
+  // The exposure belongs to the sensor and is computed once, from its reference.
   const FloatImage once = color_image(trace(scene, membrane, sensor, settings, fields), sensor, false);
   const double exposure = solve_exposure(camera_signal(once, sensor.camera, sensor.response), sensor.response);
   const auto frame_ms = [&](std::size_t threads, double (*clock_s)()) {

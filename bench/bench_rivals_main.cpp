@@ -1,4 +1,4 @@
-// Measures what a tactile image costs: TacIPC's of a press, and those of simulators that know the object's depth alone.
+// Measures the cost of a tactile image: for TacIPC from a press, and for simulators that use only the object's depth.
 #include <fmt/core.h>
 #include <tbb/global_control.h>
 
@@ -38,9 +38,9 @@ const StageSpec kBench{
         InputSpec::any_number_named("--mpm", "folders of mpm, by method: seen under TacIPC's light")}};
 
 constexpr std::array<std::array<int, 2>, 2> kSizes{{{320, 240}, {640, 480}}};
-constexpr int kLeastFrames = 12;  // timed of every method: frames are repeated where there are fewer
+constexpr int kLeastFrames = 12;  // least number of timed frames per method; fewer frames are repeated
 
-/// The same field of view along x in images of another size.
+/// Sensor with the same field of view along x, and images of another size.
 Sensor resized(Sensor sensor, int width_px, int height_px) {
   Camera& camera = sensor.camera;
   if (camera.intrinsics_px) throw DataError("the sensor's camera has intrinsics, which belong to one size of image");
@@ -61,7 +61,7 @@ ImageSpeed sized(const std::string& method, const Sensor& sensor) {
   return {.method = method, .width_px = sensor.camera.width_px, .height_px = sensor.camera.height_px};
 }
 
-/// Frames 1 … count of a press or a list of poses, as often as it takes. \pre count > 0
+/// Frames 1 … count of a press or a list of poses, repeated as needed. \pre count > 0
 std::vector<std::size_t> timed_frames(std::size_t count) {
   std::vector<std::size_t> frames;
   while (frames.size() < kLeastFrames)
@@ -69,7 +69,7 @@ std::vector<std::size_t> timed_frames(std::size_t count) {
   return frames;
 }
 
-/// Medians over frames: `view(frame)` is a membrane as seen, which is then lit and added to a photograph.
+/// Medians over frames. `view(frame)` gives a visible membrane, which is then lit and added to a photograph.
 template <typename View>
 ImageSpeed of_views(const std::string& method, std::size_t frames, const LightField& light, const Sensor& sensor,
                     View&& view) {
@@ -86,7 +86,7 @@ ImageSpeed of_views(const std::string& method, std::size_t frames, const LightFi
   return speed;
 }
 
-/// Folders of simulations: processor time of all over the frames of all.
+/// Simulations of several folders: total processor time over the total number of frames.
 struct Simulation {
   double processor_s = 0.0;
   std::size_t frames = 0;
@@ -115,7 +115,7 @@ ImageSpeed of_baseline(const std::string& method, const BaselineSimulator& simul
   return speed;
 }
 
-/// The nearest pixel's value: a map of another size, to time what comes after it.
+/// Map in another size by the nearest pixel's value, to time the following steps.
 FloatImage nearest(const FloatImage& map, int width_px, int height_px) {
   FloatImage out(width_px, height_px, 1);
   for (int y = 0; y < height_px; ++y)
@@ -124,7 +124,7 @@ FloatImage nearest(const FloatImage& map, int width_px, int height_px) {
   return out;
 }
 
-/// Every frame with contact of a folder that mpm wrote.
+/// Maps of every frame with contact in a folder written by mpm.
 std::vector<FloatImage> read_maps(const std::filesystem::path& folder) {
   std::vector<FloatImage> maps;
   for (std::size_t frame = 1;; ++frame) {
@@ -189,7 +189,7 @@ int main(int argc, char** argv) {
         speeds.push_back(of_baseline(method, simulator, press.gel_from_object));
       }
       for (const auto& [method, simulated] : particles) {
-        std::vector<FloatImage> maps;  // of this size before the clock starts
+        std::vector<FloatImage> maps;  // maps in this size, made before the clock starts
         for (const FloatImage& map : simulated.second) maps.push_back(nearest(map, width, height));
         speeds.push_back(of_views(method, maps.size(), light, camera,
                                   [&](std::size_t frame) { return view_height_map(maps[frame - 1], camera); }));

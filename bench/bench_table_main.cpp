@@ -1,4 +1,4 @@
-// Puts the presses of the benchmark together: tables, a plot, the cost model.
+// Combines the presses of the benchmark into tables, a plot, and the cost model.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -98,15 +98,15 @@ std::string run_rows(const std::vector<Run>& runs) {
   return out;
 }
 
-/// The page docs/performance.md: the routes beside each other, where the time goes, threads and processes, the cost
-/// model. `processor`: what it was measured on.
+/// The page docs/performance.md: comparison of routes, parts of the time, threads and processes, cost model.
+/// `processor` is the processor that measured.
 std::string bench_page(const std::vector<Run>& runs, const CostModel& model, const std::string& processor) {
   return fmt::format(kPressPage, processor, route_rows(runs), parts_table(runs), element_section(runs), run_rows(runs),
                      model.vertices_exponent, model.contacts_exponent, model.press_s, model.motion_s,
                      model.averaged_factor, model.runs, model.largest_ratio);
 }
 
-/// Processor seconds of presses over vertices, a curve for each object and route.
+/// Plot of processor seconds of presses over vertices, a curve for each object and route.
 std::string bench_svg(const std::vector<Run>& runs) {
   std::map<std::string, PlotCurve> curves;
   for (const Run& run : runs) {

@@ -16,7 +16,7 @@ constexpr int kSweeps = 50;
 /// ln c_press, ln c_motion, a, b and ln of the averaged element's factor.
 using Parameters = Eigen::Vector<double, 5>;
 
-/// ln of the predicted time and its derivatives.
+/// Logarithm of the predicted time, and its derivatives.
 double log_cost(const Run& run, const Parameters& at, Parameters& slope) {
   double sum = 0.0;
   slope.setZero();

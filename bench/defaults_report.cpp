@@ -50,7 +50,7 @@ DefaultsRow row_of(const std::string& object, const Runs& runs) {
   return row;
 }
 
-/// Over the rows that have it.
+/// Mean over the rows that have the value.
 template <typename Value>
 std::optional<double> mean(const std::vector<DefaultsRow>& rows, Value&& value) {
   double sum = 0.0;

@@ -1,4 +1,4 @@
-// Puts presses with the shipped settings, and with one of them changed, side by side.
+// Compares presses with the default settings with presses in which one setting differs.
 #include "bench/defaults_report.h"
 #include "bench/machine.h"
 #include "common/base/files.h"

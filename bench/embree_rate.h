@@ -1,4 +1,4 @@
-// How fast Embree itself answers given rays: the yardstick for our own way to it.
+// Rate at which Embree itself traces given rays, as the yardstick for RayScene.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,13 @@
 
 namespace tacipc::bench {
 
-/// Seconds of processor and wall time (one thread) that bare loops over rtcIntersect8 and rtcOccluded8 take for the
-/// packets, which are already in Embree's own form; the scene is built as RayScene builds it. Minimum of `repeats`.
+/// Seconds (processor and wall time, one thread) of bare loops over rtcIntersect8 and rtcOccluded8 for packets that are
+/// already in Embree's own form. The scene is built as RayScene builds it. Times are the minimum of `repeats`.
 struct EmbreeSeconds {
   double camera = 0.0;
   double shadow = 0.0;
 };
+/// Measures both loops. \pre repeats > 0
 EmbreeSeconds embree_seconds(const Positions& positions, const Triangles& triangles,
                              const std::vector<RayPacket>& camera, const std::vector<RayPacket>& shadow, int repeats);
 

@@ -1,4 +1,4 @@
-// The machine that measures: its name and its clocks.
+// Name, load and clocks of the machine that measures.
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,7 @@
 
 namespace tacipc::bench {
 
-/// The processor's model, as the kernel names it.
+/// Processor model as the kernel reports it.
 inline std::string processor() {
   std::ifstream in("/proc/cpuinfo");
   for (std::string line; std::getline(in, line);) {
@@ -20,18 +20,19 @@ inline std::string processor() {
   return "a processor without a name";
 }
 
-/// How many processes wanted a processor in the last minute.
+/// Mean number of processes that were ready to run in the last minute.
 inline double load_average() {
   double load = 0.0;
   if (getloadavg(&load, 1) != 1) throw DataError("the kernel does not say how busy it is");
   return load;
 }
 
+/// Wall-clock time since an arbitrary start, s.
 inline double wall_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Processor time of all threads of this process.
+/// Processor time of all threads of this process, s.
 inline double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace tacipc::bench

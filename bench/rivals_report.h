@@ -1,4 +1,4 @@
-// What a tactile image costs by each method, as a table.
+// Table of the cost of a tactile image by simulator.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,11 @@
 
 namespace tacipc::bench {
 
-/// A row per method, columns per size, as measured on `processor` after a minute in which `load` processes wanted one.
-/// `frames`: of TacIPC's presses. \pre all methods in each size, in one order
+/// A row per simulator, columns per image size.
+/// \param frames number of frames of TacIPC's presses
+/// \param processor model of the machine that measured
+/// \param load mean number of ready processes in the minute before
+/// \pre every size has all simulators, in the same order
 std::string rivals_table(const std::vector<ImageSpeed>& speeds, std::size_t frames, const std::string& processor,
                          double load);
 

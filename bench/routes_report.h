@@ -1,4 +1,4 @@
-// The same samples by two routes: which converged, and the differences between their results.
+// Compares the same samples by two routes: which converged, and the differences between their results.
 #pragma once
 
 #include <filesystem>
@@ -11,16 +11,16 @@
 
 namespace tacipc::bench {
 
-/// Largest differences with which two results of one sample agree.
+/// Limits within which two results of one sample agree.
 struct RouteLimits {
-  double rms_m = 0.0;      // over the gel's vertices in the last frame
-  double force = 0.0;      // of the press force, relative
-  double largest_m = 0.0;  // of a vertex: beyond it a sample is named on the page, though it may agree
+  double rms_m = 0.0;      // root mean square over the gel's vertices in the last frame, m
+  double force = 0.0;      // difference of the press force, relative
+  double largest_m = 0.0;  // difference of one vertex, m; a sample beyond it is named on the page although it may agree
 
   static RouteLimits read(ConfigReader& in);
 };
 
-/// A run, or why there is none.
+/// A run, or the reason for its failure.
 struct RouteRun {
   std::optional<Run> run;
   std::string failure;
@@ -39,20 +39,22 @@ struct RoutePair {
   bool agrees_at_every_vertex(const RouteLimits& limits) const;
 };
 
-/// From folders of presses that are named gel-object-pose-fast and gel-object-pose-direct; by object, then pose.
-/// \throw DataError for other names, or where one of two is missing
+/// Reads folders of presses named gel-object-pose-fast and gel-object-pose-direct; sorted by object, then pose.
+/// \throw DataError for other names, or if one of the two is missing
 std::vector<RoutePair> read_route_pairs(const std::vector<std::filesystem::path>& folders);
 
+/// Counts and medians over all samples.
 struct RouteSummary {
   int samples = 0, fast_converged = 0, direct_converged = 0, agree = 0;
-  int agrees_at_every_vertex = 0;  // of those that agree: no vertex differs by more than the limit
-  double median_largest_m = 0.0, median_rms_m = 0.0, median_force = 0.0;  // of those that converged in both
-  double fast_s = 0.0, direct_s = 0.0;                                    // CPU seconds of those
+  int agrees_at_every_vertex = 0;  // number of agreeing samples of which no vertex differs by more than the limit
+  double median_largest_m = 0.0, median_rms_m = 0.0,
+         median_force = 0.0;            // medians over the samples that converged by both routes
+  double fast_s = 0.0, direct_s = 0.0;  // CPU seconds of the samples that converged by both routes
   bool holds() const { return agree == samples; }
 };
 RouteSummary summarize(const std::vector<RoutePair>& pairs, const RouteLimits& limits);
 
-/// A line per object, then each sample that failed, does not agree or has a vertex elsewhere.
+/// Page with a line per object, then each sample that failed, disagrees, or has a vertex beyond the limit.
 std::string routes_page(const std::vector<RoutePair>& pairs, const RouteLimits& limits);
 
 }  // namespace tacipc::bench

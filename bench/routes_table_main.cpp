@@ -1,4 +1,4 @@
-// Puts the same samples by two routes side by side. The record's `holds` says whether all of them agree.
+// Compares the same samples by two routes. `holds` in the record states whether all of them agree.
 #include "bench/routes_report.h"
 #include "common/base/files.h"
 #include "common/stage/stage.h"

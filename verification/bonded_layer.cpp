@@ -10,7 +10,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// q(t) of the header.
+/// Abel's transform q(t) of the indenter's profile, as in the header.
 double profile_transform(const LayerProblem& problem, double t) {
   switch (problem.shape) {
     case LayerProblem::Shape::sphere: return t * std::atanh(t / problem.radius_m);
@@ -20,8 +20,8 @@ double profile_transform(const LayerProblem& problem, double t) {
   return 0.0;
 }
 
-/// √w-weighted cosines c(k, i) such that M(tᵢ, tⱼ) = Σ_k c(k, i) c(k, j). 1 − K dies like e^{−2ω}, so ω ends at 24; a
-/// panel is never longer than a quarter of the fastest cosine's wave.
+/// Cosines weighted with √w, c(k, i), such that M(tᵢ, tⱼ) = Σ_k c(k, i) c(k, j). 1 − K decays like e^{−2ω}, so ω ends
+/// at 24; a panel is never longer than a quarter of the fastest cosine's wavelength.
 Eigen::MatrixXd weighted_cosines(const LayerProblem& problem, const std::vector<double>& t) {
   constexpr double kEnd = 24.0;
   constexpr int kPerPanel = 8;
@@ -81,13 +81,13 @@ Quadrature gauss_legendre(int points, double low, double high) {
 LayerSolution solve_bonded_layer(const LayerProblem& problem, double contact_radius_m, double depth_m, int points) {
   const Quadrature nodes = gauss_legendre(points, 0.0, contact_radius_m);
   std::vector<double> t = nodes.node;
-  t.push_back(contact_radius_m);  // for φ(a)
+  t.push_back(contact_radius_m);  // node for φ(a)
   const Eigen::MatrixXd cosines = weighted_cosines(problem, t);
   const Eigen::MatrixXd M = cosines.transpose() * cosines;
   const Eigen::Map<const Eigen::VectorXd> weight(nodes.weight.data(), points);
   const Eigen::MatrixXd system =
       Eigen::MatrixXd::Identity(points, points) - M.topLeftCorner(points, points) * weight.asDiagonal();
-  // φ = δ φ₁ − φ₂, the answers to unit depth and to the profile.
+  // φ = δ φ₁ − φ₂, the solutions for unit depth and for the profile.
   Eigen::MatrixXd right(points, 2);
   const double scale = problem.combined_modulus_pa() / pi;
   for (int i = 0; i < points; ++i) right.row(i) << scale, scale * profile_transform(problem, t[i]);
@@ -110,7 +110,8 @@ LayerSolution press_bonded_layer(const LayerProblem& problem, double depth_m, in
   if (problem.shape == LayerProblem::Shape::flat) {
     return solve_bonded_layer(problem, problem.radius_m, depth_m, points);
   }
-  // An incompressible thin layer bulges: there the contact is wider than √(2 R δ); a sphere never touches beyond R.
+  // An incompressible thin layer bulges, so its contact is wider than √(2 R δ). The contact radius of a sphere is below
+  // R.
   double low = 0.0, high = 4.0 * std::sqrt(problem.radius_m * depth_m);
   if (problem.shape == LayerProblem::Shape::sphere) high = std::min(high, 0.999999 * problem.radius_m);
   for (int i = 0; i < 60; ++i) {

@@ -15,24 +15,24 @@
 
 namespace tacipc::verify {
 
-/// Which frame is meant: the last one, one by number, the last of a phase, or the one at a depth.
+/// Selects a frame: the last one, one by number, the last of a phase, or the one at a depth.
 struct FrameChoice {
   std::optional<int> index;
   std::optional<std::string> phase;
   std::optional<double> depth_m;
 
-  /// `frame: last`, `frame: 3`, `frame: {phase: shear}` or `frame: {depth_mm: 0.5}`; absent: the last.
+  /// Reads `frame: last`, `frame: 3`, `frame: {phase: shear}` or `frame: {depth_mm: 0.5}`; absent: the last.
   static FrameChoice read(ConfigReader& in);
 };
 
-/// One row of the table: a measured quantity, what it must be, and how near.
+/// One row of the table: a measured quantity, its expected value, and the permitted deviation.
 struct Expectation {
-  std::string label;     // shown in the table; the quantity where none is given
+  std::string label;     // label in the table; default: the name of the quantity
   std::string quantity;  // a name of quantities()
   FrameChoice frame;
-  std::optional<double> value;         // in the quantity's unit, or …
-  std::optional<std::string> formula;  // … a name of formulas()
-  bool with_standoff = false;          // the formula is for the object enlarged by the barrier's stand-off
+  std::optional<double> value;         // expected value in the quantity's unit; otherwise `formula` gives it
+  std::optional<std::string> formula;  // name from formulas(), instead of `value`
+  bool with_standoff = false;          // evaluate the formula for the object enlarged by the barrier's stand-off
   std::optional<double> within_percent;
   std::optional<double> within;
   std::optional<double> at_most;
@@ -41,7 +41,7 @@ struct Expectation {
   static Expectation read(ConfigReader& in);
 };
 
-/// The modulus for which one measured force results: forces of a slow press scale with it.
+/// Fits the modulus such that one measured force results: forces of a quasi-static press are proportional to it.
 struct Fit {
   FrameChoice frame;
   double press_force_n = 0.0;
@@ -51,19 +51,20 @@ struct Fit {
 
 /// Results of the reference solver on the same gel mesh.
 struct ReferenceSpec {
-  std::string displacement;  // npy (frames, #V, 3), shared:… allowed
-  double largest_m = 0.0;    // limit of `share_percent` of the front vertices …
+  std::string displacement;  // npy of shape (frames, #V, 3); shared:… allowed
+  double largest_m = 0.0;    // limit for `share_percent` of the front vertices, m
   double share_percent = 100.0;
-  double rms_m = 0.0;       // … and of the root mean square over the front
-  int first_frame = 1;      // frame of ours that its frame 1 stands for
-  bool all_frames = false;  // else the last one
+  double rms_m = 0.0;       // limit for the root mean square over the front, m
+  int first_frame = 1;      // frame of the press that corresponds to frame 1 of the reference
+  bool all_frames = false;  // compare all frames; otherwise only the last one
 
   static ReferenceSpec read(ConfigReader& in);
 };
 
+/// Content of a case's file.
 struct CaseSpec {
   std::string title;
-  std::string source;  // where the expected numbers come from
+  std::string source;  // source of the expected numbers
   GelSpec gel;
   Material material;
   ObjectShape object;
@@ -74,7 +75,7 @@ struct CaseSpec {
   std::optional<ReferenceSpec> reference;
 
   static CaseSpec read(ConfigReader& in);
-  /// Every file of the shared data that the case needs.
+  /// Paths of all shared files that the case needs.
   std::vector<std::string> shared_paths() const;
 };
 

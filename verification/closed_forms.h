@@ -8,13 +8,13 @@
 
 namespace tacipc::verify {
 
-/// Isotropic elastic constants as used below.
+/// Isotropic elastic constants.
 struct Elastic {
   double youngs_modulus_pa = 0.0;
   double poissons_ratio = 0.0;
 
   double shear_modulus_pa() const { return youngs_modulus_pa / (2.0 * (1.0 + poissons_ratio)); }
-  /// E* = E / (1 − ν²): against a rigid body.
+  /// E* = E / (1 − ν²), the modulus for contact with a rigid body, Pa.
   double plane_modulus_pa() const { return youngs_modulus_pa / (1.0 - poissons_ratio * poissons_ratio); }
   /// λ = E ν / ((1 + ν)(1 − 2ν))
   double lame_lambda_pa() const;
@@ -54,17 +54,20 @@ double disc_twist_torque_n_m(const Elastic& gel, double radius_m, double thickne
 struct Compression {
   double lateral_stretch = 1.0;
   double nominal_stress_pa = 0.0;  // first Piola–Kirchhoff P_zz, negative in compression
-  double true_stress_pa = 0.0;     // Cauchy
+  double true_stress_pa = 0.0;     // Cauchy stress, Pa
 };
 
-/// Neo-Hookean Ψ = μ/2 (tr FᵀF − 3) − μ ln J + λ/2 (ln J)²: the lateral stretch t solves
-/// μ (t² − 1) + λ ln(s t²) = 0 (P_xx t = 0), by Newton in ln t; P_zz = μ s − (μ − λ ln(s t²))/s.
-/// StVK in Hencky strain Ψ = μ tr ε² + λ/2 (tr ε)², ε = ln of the stretches: ε_t = −ν ε_s, P_zz = E ε_s / s.
-/// `law` is "neo_hookean" or "stvk_hencky". \throw UsageError for another one
+/// Uniform compression of a material by the axial stretch s.
+/// Neo-Hookean, Ψ = μ/2 (tr FᵀF − 3) − μ ln J + λ/2 (ln J)²: the lateral stretch t solves μ (t² − 1) + λ ln(s t²) = 0
+/// (P_xx t = 0), by Newton in ln t; P_zz = μ s − (μ − λ ln(s t²))/s.
+/// StVK in Hencky strain, Ψ = μ tr ε² + λ/2 (tr ε)², ε = logarithm of the stretches: ε_t = −ν ε_s, P_zz = E ε_s / s.
+/// \param law "neo_hookean" or "stvk_hencky"
+/// \throw UsageError for any other law
 Compression uniform_compression(const std::string& law, const Elastic& gel, double axial_stretch);
 
-/// Force over the long-term elastic one, a time `held_s` after a small strain came at a constant rate over `ramp_s`:
-/// 1 + Σ (gᵢ/g∞) (τᵢ/T) (1 − e^{−T/τᵢ}) e^{−t/τᵢ}, g∞ = 1 − Σ gᵢ.   [Prony series; Christensen 1982]
+/// Ratio of the force to the long-term elastic force, a time t = `held_s` after a small strain was applied at a
+/// constant rate over T = `ramp_s`: 1 + Σ (gᵢ/g∞) (τᵢ/T) (1 − e^{−T/τᵢ}) e^{−t/τᵢ}, g∞ = 1 − Σ gᵢ.   [Prony series;
+/// Christensen 1982]
 double relaxing_force_factor(const std::vector<Relaxation>& series, double ramp_s, double held_s);
 
 }  // namespace tacipc::verify

@@ -1,4 +1,5 @@
-// Markers of several simulators under the same dragged or turned object, as a fragment of a page with its pictures.
+// Compares the markers of several simulators under the same moving object; writes a fragment of a page and its
+// pictures.
 #include <fmt/core.h>
 
 #include <algorithm>

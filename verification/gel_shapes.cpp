@@ -16,22 +16,23 @@ namespace {
 
 using LatticePoint = std::array<int, 3>;
 
-/// A block of cells whose corners are the points (i, j, k), 0 ≤ i ≤ cells[0] and so on. Points that are one place (a
-/// closed ring, an axis) have the same representative; what touches a point without one is left out.
+/// Block of cells whose corners are the points (i, j, k), 0 ≤ i ≤ cells[0] and so on. Points at the same position (a
+/// closed ring, an axis) have the same representative; cells that touch a point without one are left out.
 struct Lattice {
   LatticePoint cells;
-  LatticePoint shift{0, 0, 0};  // which cells of an axis are walked upwards: those of even index, or (1) of odd
+  LatticePoint shift{0, 0,
+                     0};  // cells that are walked upwards along an axis: 0: those of even index, 1: those of odd index
   std::function<std::optional<LatticePoint>(const LatticePoint&)> representative;
-  std::function<Vector3(const LatticePoint&)> position;  // m, of a representative
+  std::function<Vector3(const LatticePoint&)> position;  // position of a representative, m
 };
 
-// Kuhn's subdivision: one tetrahedron for each order in which the three axes are walked through a cell. A cell is
-// walked upwards or downwards along an axis by the parity of its index, so that neighbours mirror each other.
+// Kuhn's subdivision: one tetrahedron for each order in which the three axes are walked through a cell. The parity of a
+// cell's index decides whether it is walked upwards or downwards along an axis, so that neighbours mirror each other.
 constexpr int kOrders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
 
-/// Each cell is six tetrahedra (Kuhn), mirrored from cell to cell so that no direction is preferred; those that the
-/// representatives flatten are left out. Positive volumes; vertices that nothing uses are dropped. A ring that closes
-/// along an axis needs an even number of cells there. No boundary, no tags.
+/// Splits each cell into six tetrahedra (Kuhn), mirrored from cell to cell so that no direction is preferred.
+/// Tetrahedra that the representatives flatten are left out. Volumes are positive, and unused vertices are dropped. A
+/// ring that closes along an axis needs an even number of cells there. The result has no boundary and no tags.
 TetMesh fill_lattice(const Lattice& lattice) {
   const auto& [nx, ny, nz] = lattice.cells;
   const auto index = [&](const LatticePoint& p) { return (p[2] * (ny + 1) + p[1]) * (nx + 1) + p[0]; };
@@ -107,8 +108,8 @@ void tag_faces(TetMesh& gel) {
   }
 }
 
-/// Steps that fill `length`: the first as wanted, each `growth` times the last, at most `longest`; then all scaled to
-/// end on the border.
+/// Steps that fill `length`: the first is `first`, each further one `growth` times the previous, at most `longest`.
+/// Then all are scaled to end at the border.
 std::vector<double> growing_steps(double length, double first, double growth, double longest) {
   std::vector<double> steps;
   double covered = 0.0;

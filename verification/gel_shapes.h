@@ -14,28 +14,30 @@
 
 namespace tacipc::verify {
 
-/// A front that is gently curved and falls off towards the rim. Along each axis the sag is s(x) = S (x/a)² up to the
-/// half size a, then continues with the same slope plus a parabola that reaches the edge sag at the rim; both axes join
-/// as z = −√(s_x² + s_y²).
+/// Crowned front: gently curved, and falling off towards the rim. Along each axis the sag is s(x) = S (x/a)² up to the
+/// half size a. Beyond, the slope continues and a parabola is added that reaches the edge sag at the rim. Both axes
+/// combine to z = −√(s_x² + s_y²).
 struct Crown {
   double half_x_m = 0.0, half_y_m = 0.0, sag_m = 0.0, edge_sag_m = 0.0;
 };
 
-/// −width/2 ≤ x ≤ width/2, −height/2 ≤ y ≤ height/2, −thickness ≤ z ≤ 0, cells graded around the axis: `near_m` wide up
-/// to `near_half_m` from it, then each `growth` times the last, at most `far_m`; in depth `layer_m` at the front,
-/// growing by `layer_growth`. Each cell is six tetrahedra (Kuhn), mirrored from cell to cell so that no direction is
-/// preferred.
+/// Block −width/2 ≤ x ≤ width/2, −height/2 ≤ y ≤ height/2, −thickness ≤ z ≤ 0 of graded cells. Cells are `near_m` wide
+/// up to `near_half_m` from the axis; farther out each is `growth` times the previous one, at most `far_m`. In depth
+/// the first layer at the front is `layer_m` thick, and layers grow by `layer_growth`. Each cell is six tetrahedra
+/// (Kuhn), mirrored from cell to cell so that no direction is preferred.
 struct BoxGel {
   double width_m = 0.0, height_m = 0.0, thickness_m = 0.0;
   double near_m = 0.0, near_half_m = 0.0, growth = 1.0, far_m = 0.0;
   double layer_m = 0.0, layer_growth = 1.0;
-  std::optional<double> corner_cut_m = {};  // legs of the triangle missing at each corner; one cell there
+  std::optional<double> corner_cut_m =
+      {};  // legs of the triangle that is cut off at each corner, which is one cell there, m
   std::optional<Crown> crown = {};
 };
 
-/// A disc of rings: the same even number of sectors on every ring, so that the mesh can be arbitrarily fine along the
-/// radius. Between two radii, the focus, rings are `near_m` apart (one lies on each of the two), inwards and outwards
-/// from there each `growth` times the last, at most `far_m`; layers and cells as those of a box.
+/// Disc made of rings. Every ring has the same even number of sectors, so that the mesh can be arbitrarily fine along
+/// the radius. Between the two radii of the focus, rings are `near_m` apart, and one ring lies on each of the two.
+/// Inwards and outwards from there each distance is `growth` times the previous one, at most `far_m`. Layers and cells
+/// are as in BoxGel.
 struct RingGel {
   double radius_m = 0.0, thickness_m = 0.0;
   int sectors = 0;
@@ -44,12 +46,14 @@ struct RingGel {
   double layer_m = 0.0, layer_growth = 1.0;
 };
 
+/// Disc from the tetmesh library.
 struct DiscGel {
   double radius_m = 0.0, thickness_m = 0.0;
   SizingConfig sizing;
 };
 
-/// A mesh file: scaled, turned by half a turn about x if `flip`, then lifted so that its highest point is z = 0.
+/// Mesh file. The mesh is scaled, turned by half a turn about x if `flip` is set, then lifted so that its highest point
+/// is at z = 0.
 struct FileGel {
   std::string path;  // shared:… names a file of the shared data
   double unit_m = 1.0;
@@ -57,6 +61,7 @@ struct FileGel {
   bool flip = false;
 };
 
+/// Section `gel` of a case.
 struct GelSpec {
   std::variant<BoxGel, RingGel, DiscGel, FileGel> shape;
 
@@ -74,7 +79,7 @@ std::vector<double> ring_radii(const RingGel& gel);
 /// \throw DataError for a file that cannot be read
 TetMesh make_gel(const GelSpec& spec, const std::filesystem::path& shared);
 
-/// What the press needs of a gel's shape: its outline from the bounding box, its thickness.
+/// Gel shape for the press: outline of the bounding box, and thickness.
 GelShape shape_of(const GelSpec& spec, const TetMesh& gel);
 
 }  // namespace tacipc::verify

@@ -68,7 +68,7 @@ Row judge_row(const Expectation& e, const Outcome& outcome, double modulus_ratio
   return row;
 }
 
-/// Front positions against another solver's on the same mesh, of the last frame or the worst of all.
+/// Compares front positions with those of another solver on the same mesh, in the last frame or in the worst of all.
 std::vector<Row> compare_positions(const ReferenceSpec& spec, const Outcome& outcome,
                                    const std::filesystem::path& shared) {
   const NpyArray theirs = read_npy(resolve(spec.displacement, shared));

@@ -1,4 +1,4 @@
-// Measured against expected: the rows of the table.
+// Compares measured with expected numbers, giving the rows of the table.
 #pragma once
 
 #include <optional>
@@ -9,29 +9,30 @@
 
 namespace tacipc::verify {
 
-/// Names that `formula` of a case may take, with their meaning.
+/// Name that `formula` of a case may take, and its meaning.
 struct Formula {
   std::string name;
   std::string meaning;
 };
 const std::vector<Formula>& formulas();
 
-/// The value a formula gives for the case at the depth, shift and turn of a frame, SI; `with_standoff`: for the object
-/// enlarged by the barrier's stand-off, and so much deeper. \throw UsageError if the gel or
-/// object is not of the kind the formula is for
+/// Value of a formula for the case at the depth, shift and turn of a frame, in SI units.
+/// \param with_standoff evaluate for the object enlarged by the barrier's stand-off, and deeper by the same amount
+/// \throw UsageError if the formula does not apply to this kind of gel or object
 double evaluate(const std::string& formula, const Outcome& outcome, int frame, bool with_standoff);
 
+/// One row of the table: a measured and an expected value.
 struct Row {
   std::string label;
   std::string unit;
   double measured = 0.0;
-  std::optional<double> expected = {};  // absent for mere bounds
-  std::string limit = {};               // in words: "within 3 %"
-  double deviation = 0.0;               // measured − expected over the limit's unit: percent, or absolute
+  std::optional<double> expected = {};  // absent if only bounds are given
+  std::string limit = {};               // limit as text, such as "within 3 %"
+  double deviation = 0.0;               // measured − expected, in the limit's unit: percent, or absolute
   bool pass = false;
 };
 
-/// All rows of a case, the fitted modulus applied. `fitted_modulus_pa` is set if the case fits one.
+/// All rows of a case, after applying the fitted modulus. `fitted_modulus_pa` is set if the case fits one.
 struct Judgement {
   std::vector<Row> rows;
   std::optional<double> fitted_modulus_pa;

@@ -22,10 +22,10 @@ double shown_way(const SlidingRun& run, double way) {
 }
 std::string way_label(const SlidingRun& run) { return run.turns ? "turn (degrees)" : "travel of the object (mm)"; }
 std::string way_unit(const SlidingRun& run) { return run.turns ? "°" : " mm"; }
-/// N, or N mm of a torque.
+/// Load in N, or in N mm for a torque.
 double shown_load(const SlidingRun& run, double load) { return run.turns ? load / kMillimetre : load; }
 
-/// Those that are dragged like our run, or turned like it.
+/// Motions of the same kind as the run: sideways or turning.
 std::vector<MarkerMotion> of_kind(const std::vector<MarkerMotion>& others, const SlidingRun& run) {
   std::vector<MarkerMotion> out;
   for (const MarkerMotion& other : others)
@@ -67,7 +67,7 @@ SlidingRun read_sliding_run(const std::filesystem::path& press) {
   for (std::size_t f = end; f < frames; ++f) {
     const Vector3 &force = wrenches[f].force_n, &torque = wrenches[f].torque_n_m;
     run.press_force_n.push_back(0.0 - force.z());
-    const double x = poses[f](0, 3), y = poses[f](1, 3);  // of the object's axis
+    const double x = poses[f](0, 3), y = poses[f](1, 3);  // position of the object's axis
     run.load.push_back(run.turns ? std::abs(torque.z() - (x * force.y() - y * force.x()))
                                  : std::hypot(force.x(), force.y()));
     const double sticking = lines[f].number(&PressFrameLines::sticking),

@@ -1,4 +1,4 @@
-// Judges the evenness of the markers' motion under a dragged or turned object: tables, curves, arrows.
+// Measures the smoothness of marker motion under an object that moves sideways or turns: tables, curves, arrows.
 
 #include "common/base/files.h"
 #include "common/base/log.h"
@@ -16,7 +16,7 @@ const StageSpec kMarkerCurve{
                InputSpec::several("--press", "folder of a press whose object is dragged or turned"),
                InputSpec::any_number("--other", "folder of the same motion by another simulator, drawn beside it")}};
 
-/// Lines of all markers in the last frame, and their vectors in every frame.
+/// Writes the plot of all markers in the last frame, and their vectors in every frame.
 void write_motion(Stage& stage, const std::string& name, const verify::MarkerMotion& motion,
                   const verify::MarkerCurveConfig& config) {
   write_file(stage.output(name + "_quiver.svg"), verify::marker_quiver_svg(motion, config.chosen));

@@ -15,7 +15,7 @@
 namespace tacipc::verify {
 namespace {
 
-/// Turn of the object about z from the first to the second pose, rad.
+/// Rotation of the object about z from the first to the second pose, rad.
 double turn_between(const Eigen::Matrix4d& from, const Eigen::Matrix4d& to) {
   const Eigen::Matrix3d turn = to.topLeftCorner<3, 3>() * from.topLeftCorner<3, 3>().transpose();
   return std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1));

@@ -20,7 +20,7 @@ Vector3 box_centre(const TriangleMesh& object) {
   return 0.5 * (object.positions.colwise().minCoeff() + object.positions.colwise().maxCoeff()).transpose();
 }
 
-/// What touches: deformed area, force-weighted second moment about the middle of the force, heights.
+/// Contact of a frame: deformed area, force-weighted second moment around the centre of force, heights.
 struct Touch {
   double area_m2 = 0.0;
   double force_n = 0.0;
@@ -69,7 +69,7 @@ int press_end(const Outcome& outcome) {
   return last;
 }
 
-/// Mean speed, weighted by normal force, at which the touching front vertices move over the object in a frame, m/s.
+/// Mean speed of the touching front vertices relative to the object in a frame, weighted by normal force, m/s.
 double creep_m_s(const Outcome& outcome, int index) {
   if (index == 0) return 0.0;
   const Frame &now = frame_of(outcome, index), &before = frame_of(outcome, index - 1);
@@ -223,7 +223,7 @@ int find_frame(const Outcome& outcome, const FrameChoice& choice) {
     throw DataError("no frame is {:g} mm deep; let a press phase end there", 1e3 * *choice.depth_m);
   }
   if (choice.phase) {
-    // The last frame of the phase by its kind, or of the n-th phase of that kind: "press", "press 2".
+    // Last frame of the phase given by its kind, or of the n-th phase of that kind: "press", "press 2".
     const std::string name = choice.phase->substr(0, choice.phase->find(' '));
     int wanted = choice.phase->size() > name.size() ? std::atoi(choice.phase->c_str() + name.size()) : 1;
     const auto& motion = outcome.spec.sample.motion;

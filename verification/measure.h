@@ -1,4 +1,4 @@
-// Numbers of one frame of a press, by name.
+// Quantities of one frame of a press, by name.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace tacipc::verify {
 
-/// Names that `quantity` of a case may take, with unit and meaning.
+/// Name that `quantity` of a case may take, with its unit and meaning.
 struct Quantity {
   std::string name;
   std::string unit;
@@ -19,7 +19,7 @@ struct Quantity {
 };
 const std::vector<Quantity>& quantities();
 
-/// Results of a press, with what measuring them needs.
+/// Results of a press, and the inputs needed to measure them.
 struct Outcome {
   const CaseSpec& spec;
   const TetMesh& gel;
@@ -29,19 +29,19 @@ struct Outcome {
 
 /// Depth of the object's lowest point below z = 0 in a frame, m.
 double depth_m(const Outcome& outcome, int frame);
-/// How far the object's frame has moved sideways, and turned about z, since the press ended, m and rad.
+/// Sideways displacement (m) and rotation about z (rad) of the object's frame since the end of the press.
 double sideways_m(const Outcome& outcome, int frame);
 double turned_rad(const Outcome& outcome, int frame);
 
-/// Distance that the barrier keeps between object and gel, the mean over the touching front vertices weighted by their
-/// normal force, m. The gel meets the object as if it were that much larger and so much deeper. \throw UsageError for
-/// objects other than sphere, punch, plate and block
+/// Stand-off: gap that the barrier keeps between object and gel, as the mean over the touching front vertices weighted
+/// by their normal force, m. The gel sees an object that is enlarged and deeper by this gap.
+/// \throw UsageError for objects other than sphere, punch, plate and block
 double standoff_m(const Outcome& outcome, int frame);
 
-/// The value of a quantity in a frame. \throw UsageError for a name that quantities() has not
+/// Value of a quantity in a frame. \throw UsageError for a name that is not in quantities()
 double measure(const Outcome& outcome, const std::string& quantity, int frame);
 
-/// Index of the frame that is meant. \throw DataError if the motion has none such
+/// Index of the selected frame. \throw DataError if the motion has no such frame
 int find_frame(const Outcome& outcome, const FrameChoice& choice);
 
 }  // namespace tacipc::verify

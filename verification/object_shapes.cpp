@@ -17,8 +17,8 @@ namespace {
 using Eigen::Vector2d;
 using std::numbers::pi;
 
-/// Surface of revolution about z of a profile (ρ, z) that starts and ends on the axis, running so that the outside lies
-/// to its right; `edge_m[i]` is the target edge length around ring i.
+/// Surface of revolution about z from a profile (ρ, z) that starts and ends on the axis and has the outside to its
+/// right. `edge_m[i]` is the target edge length around ring i.
 TriangleMesh revolve(const std::vector<Vector2d>& profile, const std::vector<double>& edge_m) {
   std::vector<Vector3> points;
   std::vector<int> start, count;
@@ -28,12 +28,12 @@ TriangleMesh revolve(const std::vector<Vector2d>& profile, const std::vector<dou
     start.push_back(static_cast<int>(points.size()));
     count.push_back(n);
     for (int k = 0; k < n; ++k) {
-      // Every other ring is turned by half an edge: no seam runs up the surface.
+      // Every other ring is turned by half an edge, so that no seam runs up the surface.
       const double angle = 2.0 * pi * (k + 0.5 * static_cast<double>(i % 2)) / n;
       points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), profile[i].y());
     }
   }
-  // Between two rings the triangles advance on the ring that is behind in angle.
+  // Between two rings the triangles advance on the ring whose angle is smaller.
   std::vector<std::array<int, 3>> triangles;
   for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
     const int n = count[i], m = count[i + 1], a0 = start[i], b0 = start[i + 1];
@@ -172,7 +172,8 @@ TriangleMesh make_object(const ObjectShape& s, const std::filesystem::path& shar
     case Kind::cone: return cone(s);
     case Kind::cylinder: return cylinder(s);
     case Kind::plate: {
-      // The circle of radius w inside the lower face has the centre of the bounding box: the tip leans out for that.
+      // The circle of radius w inside the lower face has the centre of the bounding box; the tip leans outwards for
+      // that.
       const double side = std::numbers::sqrt3 * w;
       return make_mesh({{-side, -w, 0}, {side, -w, 0}, {0, 2 * w, 0}, {0, -2 * w, w}},
                        {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});

@@ -1,4 +1,4 @@
-// Refines one number of a scene and measures how the results converge.
+// Refines one parameter of a scene and measures how the results converge.
 #include <fmt/format.h>
 
 #include "common/base/files.h"

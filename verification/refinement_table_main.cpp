@@ -1,4 +1,4 @@
-// Puts studies of refinement together: tables and plots.
+// Combines refinement studies into tables and plots.
 #include <fmt/format.h>
 
 #include "common/base/files.h"

@@ -25,7 +25,7 @@ Sensor sensor_for(const CaseSpec& spec, const TetMesh& gel) {
   return sensor;
 }
 
-/// Not a number for a quantity that this kind of object does not have.
+/// Value of a quantity; NaN if this kind of object does not have it.
 double measure_or_nan(const Outcome& outcome, const std::string& quantity, int frame) {
   try {
     return measure(outcome, quantity, frame);
@@ -121,7 +121,7 @@ std::string to_svg(const CaseResult& result) {
   if (turns) plot.curves.push_back(torque);
   if (moves) plot.x_label = "way sideways (mm)";
   if (turns && !moves) plot.x_label = "turn (degrees)";
-  // What was expected of the forces, where it was.
+  // Expected forces, if there are any.
   PlotCurve expected{.label = "expected", .dots = true};
   for (std::size_t i = 0; i < result.spec.expect.size(); ++i) {
     const Row& row = result.judgement.rows[i];

@@ -1,4 +1,4 @@
-// One case from its YAML to its result.
+// Runs one verification case from its YAML file to its result.
 #pragma once
 
 #include <filesystem>
@@ -9,28 +9,30 @@
 
 namespace tacipc::verify {
 
-/// A case that has been run, or could not be.
+/// A case that was run, skipped or failed.
 struct CaseResult {
   CaseSpec spec;
   TetMesh gel;
   TriangleMesh object;
-  std::optional<Simulation> simulation;  // absent: skipped or failed
-  std::optional<std::string> skipped;    // why: the shared data are not there
-  std::optional<std::string> failed;     // why: the press failed
+  std::optional<Simulation> simulation;  // absent if the case was skipped or failed
+  std::optional<std::string> skipped;    // reason for skipping: the shared data are missing
+  std::optional<std::string> failed;     // reason for failing: the error of the press
   Judgement judgement;
 
   bool pass() const { return simulation && judgement.pass(); }
 };
 
-/// Runs a case. Data that are not there at all skip it; a shared folder without the file is a failure.
+/// Runs a case. The case is skipped if the shared folder does not exist; a missing file in an existing folder is an
+/// error.
 /// \throw DataError, UsageError for a case that cannot be set up
 CaseResult run_case(CaseSpec spec, const std::filesystem::path& shared, const ProgressObserver& observe);
 
-/// The result as a tree: title, source, state, rows.
+/// Result as a tree: title, source, state, rows.
 Value to_value(const CaseResult& result);
-/// One line per frame: frame, depth_mm, sideways_mm, turned_deg, then every quantity.
+/// CSV with one line per frame: frame, depth_mm, sideways_mm, turned_deg, then every quantity.
 std::string to_csv(const CaseResult& result);
-/// Press force over depth, or tangential force or torque over the travel once there is one.
+/// Plot of the press force over depth or, if the object travels sideways, of the tangential force or torque over
+/// travel.
 std::string to_svg(const CaseResult& result);
 
 }  // namespace tacipc::verify

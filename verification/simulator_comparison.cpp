@@ -16,7 +16,7 @@ namespace {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// Every value of a record's configuration by its path.
+/// Collects every value of a record's configuration by its path.
 void flatten(const Value& value, const std::string& path, Settings& out) {
   if (const auto* map = std::get_if<Value::Map>(&value.data())) {
     for (const auto& [key, inner] : *map) flatten(inner, path.empty() ? key : path + "." + key, out);
@@ -34,7 +34,7 @@ std::optional<std::string> value_at(const Settings& settings, const std::string&
   return std::nullopt;
 }
 
-/// Path, value here, value there; "not said" where there is none.
+/// Differing settings: path, value here, value there; "not said" for a missing value.
 std::vector<std::array<std::string, 3>> differences(const Settings& here, const Settings& there) {
   std::vector<std::array<std::string, 3>> out;
   for (const auto& [path, value] : here)
@@ -45,10 +45,10 @@ std::vector<std::array<std::string, 3>> differences(const Settings& here, const 
   return out;
 }
 
-/// What a run's chosen markers come to in its last frame.
+/// Displacements of a run's chosen markers in its last frame.
 struct Ending {
   double mean_m = 0.0;
-  double of_way = 0.0;  // over what markers stuck to the object would do
+  double of_way = 0.0;  // fraction of the displacement of markers that stick to the object
   double all_m = 0.0;   // mean of all markers, chosen or not
 };
 
@@ -79,7 +79,7 @@ std::string row_of(const ComparedRuns& all, std::size_t s, std::size_t m) {
                      run.half_speed_change ? fmt::format("{:.2f} %", 100.0 * *run.half_speed_change) : "");
 }
 
-/// The travel up to which the other's mean stays below ours, where that ends before the last frame and after the first.
+/// Travel up to which the other's mean stays below `ours`, if that ends after the first and before the last frame.
 std::optional<double> shorter_up_to(const MarkerMotion& ours, const MarkerMotion& other, const MarkerChoice& chosen) {
   const std::vector<double> own = mean_displacements(ours, chosen), their = mean_displacements(other, chosen);
   std::size_t f = 1;
@@ -88,8 +88,8 @@ std::optional<double> shorter_up_to(const MarkerMotion& ours, const MarkerMotion
   return ours.way[f - 1];
 }
 
-/// The others' markers at the end compared with the first one's, in words, and whether the paper's finding is
-/// reproduced.
+/// Sentence that compares the others' final marker displacements with the first one's, and states whether the paper's
+/// finding is reproduced.
 std::string finding(const ComparedRuns& all, std::size_t m) {
   const SimulatorRun& ours = all.at(0, m);
   if (!ours.motion) return "";
@@ -115,7 +115,7 @@ std::string finding(const ComparedRuns& all, std::size_t m) {
   return out;
 }
 
-/// Every simulator under the first motion, to which factors belong.
+/// Runs of every simulator under the first motion, to which factors belong.
 std::vector<const SimulatorRun*> first_motion(const ComparedRuns& all) {
   std::vector<const SimulatorRun*> runs;
   for (std::size_t s = 0; s < all.config.simulators.size(); ++s) runs.push_back(&all.at(s, 0));
@@ -147,7 +147,7 @@ std::string factor_rows(const ComparedRuns& all) {
   return out;
 }
 
-/// Which changed value leaves the shortest vectors and which the longest, for each stage that was varied.
+/// Sentence on the changed parameters that give the shortest and the longest vectors, for each stage that was varied.
 std::string factor_finding(const ComparedRuns& all) {
   const SimulatorRun& ours = all.at(0, 0);
   const std::vector<const SimulatorRun*> bases = first_motion(all);

@@ -1,5 +1,5 @@
-// Markers of several simulators under the same dragged or turned object: tables, curves, arrows, and the influence of
-// single values.
+// Compares the markers of several simulators under the same moving object: tables, curves, arrows, and the influence of
+// single parameters.
 #pragma once
 
 #include <filesystem>
@@ -13,58 +13,60 @@
 
 namespace tacipc::verify {
 
+/// Names of a simulator.
 struct Simulator {
-  std::string name;   // in names of files
-  std::string label;  // in tables
+  std::string name;   // name in file names
+  std::string label;  // name in tables
 };
 
-/// configs/studies/paper/markers/*.yaml
+/// Content of configs/studies/paper/markers/*.yaml.
 struct SimulatorComparison {
-  std::string title;  // and the beginning of the names of files
+  std::string title;  // title, which file names also start with
   MarkerChoice chosen;
-  std::vector<std::string> motions;   // names
-  std::vector<Simulator> simulators;  // the others are measured by the first
-  double reported_below = 0.0;        // of the first one's: what the paper calls clearly shorter
+  std::vector<std::string> motions;   // names of the motions
+  std::vector<Simulator> simulators;  // compared simulators; the first is the reference for the others
+  double reported_below =
+      0.0;  // fraction of the first simulator's displacement below which the paper calls a result clearly shorter
 
   static SimulatorComparison read(ConfigReader& in);
 };
 
-/// The folder of a press or of another simulator, or why there is nothing in it.
+/// Result folder of a press or of another simulator, or the reason why it has no motion.
 struct SimulatorRun {
-  std::string name;   // of its record
-  std::string stage;  // that made it
+  std::string name;   // name of its record
+  std::string stage;  // stage that made it
   std::optional<MarkerMotion> motion;
-  std::string failure;                                             // where there is no motion
-  std::vector<std::pair<std::string, std::string>> settings = {};  // path and value of each key of its numerics
-  std::optional<double> half_speed_change = std::nullopt;          // of the markers
+  std::string failure;                                             // reason if there is no motion
+  std::vector<std::pair<std::string, std::string>> settings = {};  // path and value of each numerical setting
+  std::optional<double> half_speed_change = std::nullopt;          // change of the markers at half speed
 
-  /// \throw DataError if files do not fit together
+  /// Reads a folder. \throw DataError if files do not fit together
   static SimulatorRun read(const std::filesystem::path& folder);
 };
 
-/// "path value (value of the other)" of every setting that differs, joined by commas.
+/// List of differing settings as "path value (value of the other)", joined by commas.
 std::string differing_settings(const SimulatorRun& run, const SimulatorRun& from);
-/// Of runs of the same stage the one with the fewest differing settings, else nothing.
+/// Run of the same stage with the fewest differing settings; null if there is none.
 const SimulatorRun* nearest_run(const SimulatorRun& run, const std::vector<const SimulatorRun*>& others);
 
-/// Everything the page is made of.
+/// All data of the page.
 struct ComparedRuns {
   SimulatorComparison config;
-  std::vector<SimulatorRun> runs;     // simulators in order, each with every motion
-  std::vector<SimulatorRun> factors;  // runs of the first motion with a changed value
+  std::vector<SimulatorRun> runs;     // run of each simulator and motion; index at(simulator, motion)
+  std::vector<SimulatorRun> factors;  // runs of the first motion with one changed parameter
 
   const SimulatorRun& at(std::size_t simulator, std::size_t motion) const {
     return runs[simulator * config.motions.size() + motion];
   }
 };
 
-/// The page: for each motion a table, a sentence, the curves and the arrows of every simulator; then the factors.
-/// Pictures are linked as `<pictures>/<title>_<motion>_….svg`.
+/// The page: for each motion a table, a sentence, the curves and the arrows of every simulator; then the influence of
+/// single parameters. Pictures are linked as `<pictures>/<title>_<motion>_….svg`.
 std::string comparison_page(const ComparedRuns& all, const std::string& pictures);
-/// Mean displacement over the object's travel, all simulators of a motion, and what markers stuck to the object would
-/// do.
+/// Plot of the mean displacement over the object's travel, for all simulators of a motion and for markers that stick to
+/// the object.
 std::string comparison_curve_svg(const ComparedRuns& all, std::size_t motion);
-/// simulator,frame,way,mean_displacement_um: a line per simulator and frame from the end of the press.
+/// CSV with a line per simulator and frame from the end of the press, columns simulator,frame,way,mean_displacement_um.
 std::string comparison_curve_csv(const ComparedRuns& all, std::size_t motion);
 
 }  // namespace tacipc::verify

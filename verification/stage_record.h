@@ -1,4 +1,4 @@
-// What a program left in its folder, as tables over many folders read it.
+// Outcome of a program as its folder shows it, for tables over many folders.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace tacipc::verify {
 
-/// Why a folder has no record of a program: the message of the failure it left, else "left no record". Nothing if there
-/// is one.
+/// Reason why a folder has no record of a program: the message in its failure file, otherwise "left no record".
+/// \return nothing if the record exists
 inline std::optional<std::string> why_no_record(const std::filesystem::path& folder, const std::string& program) {
   if (std::filesystem::exists(folder / (program + ".yaml"))) return std::nullopt;
   const std::filesystem::path failure = folder / (program + ".failed.yaml");

@@ -15,7 +15,7 @@ using std::numbers::pi;
 
 int steps_for(double way, double step) { return std::max(1, static_cast<int>(std::ceil(way / step - 1e-9))); }
 
-/// Phases of a case, drawn one by one while following where the object is.
+/// Draws the phases of a case one by one while following the object's position.
 class MotionDrawer {
  public:
   MotionDrawer(const StressConfig::Motion& ranges, Draws& draws, StressCase& stress)
@@ -56,7 +56,7 @@ class MotionDrawer {
         add({.kind = PhaseKind::twist, .steps = steps_for(std::abs(twist_rad), twist_step), .angle_rad = twist_rad});
         return;
       case 2: {
-        // As far as the object gets no deeper than it may; shear where no travel is left.
+        // Tilt until the object would exceed its depth; shear instead if no travel is left.
         Phase tilt{.kind = PhaseKind::tilt, .steps = 1, .angle_rad = tilt_rad, .direction_rad = direction};
         while (tilt.angle_rad > 0.5 * tilt_step && lowest_z_m(end_of(tilt)) < -deepest_m_) tilt.angle_rad *= 0.9;
         if (tilt.angle_rad <= 0.5 * tilt_step) break;
@@ -98,7 +98,7 @@ class MotionDrawer {
   Matrix4 placed_, pose_;
 };
 
-/// Close, lift, shake, and perhaps let go.
+/// Phases close, lift, shake, and sometimes release.
 GraspSpec draw_grasp(const StressConfig::Grasp& ranges, double size_m, Draws& draws) {
   GraspSpec grasp;
   grasp.mass_kg = draws.log(ranges.mass_kg);
@@ -129,7 +129,7 @@ class Count final : public FrameStore {
   int saved_ = 0;
 };
 
-/// Time steps per frame of each phase.
+/// Number of time steps per frame for each phase.
 template <typename Phases>
 std::vector<int> substeps_of(const Phases& phases) {
   std::vector<int> substeps;
@@ -137,7 +137,7 @@ std::vector<int> substeps_of(const Phases& phases) {
   return substeps;
 }
 
-/// Sums up frames as they are judged; keeps none.
+/// Sums over frames as they are judged; stores none.
 class Tally final : public FrameStore {
  public:
   Tally(StressResult& result, std::vector<int> substeps) : result_(result), substeps_(std::move(substeps)) {}
@@ -169,7 +169,7 @@ class Tally final : public FrameStore {
 
  private:
   StressResult& result_;
-  std::vector<int> substeps_;  // of the phases
+  std::vector<int> substeps_;  // time steps per frame of each phase
 };
 
 constexpr StressOutcome kOutcomes[] = {StressOutcome::converged, StressOutcome::not_converged,
@@ -201,7 +201,7 @@ StressCase draw_case(const StressConfig& config, std::uint64_t seed, std::uint64
   stress.sensor.material.poissons_ratio = draws.in(config.material.poissons_ratio);
   stress.object = draw_object(config.object, stress.gel.front_edge_m, draws);
 
-  // The lowest point comes to lie within a part of the half width; placement speaks of the bounding box.
+  // The lowest point comes to lie within a fraction of the half width. Placement refers to the bounding box.
   const Positions& x = stress.object.mesh.positions;
   const double reach = config.object.place * 0.5 * std::min(shape.width_m, shape.height_m);
   const double radius = reach * std::sqrt(draws.unit()), angle = draws.in({0.0, 2.0 * pi});
@@ -313,7 +313,7 @@ StressResult run_stress_case(const StressCase& stress, const ProgressObserver& o
       for (const Simulation& finger : done.fingers) {
         for (const Frame& frame : finger.frames) tally.add(frame);
       }
-      // Both fingers have the same frames, and the solver's numbers stand in each.
+      // Both fingers have the same frames, and each has the solver's numbers.
       result.frames = result.frames_asked;
       StressTotals& totals = *result.totals;
       for (int* of_both : {&totals.time_steps, &totals.planned_steps, &totals.newton_iterations,

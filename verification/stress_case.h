@@ -11,35 +11,36 @@
 
 namespace tacipc::verify {
 
+/// All inputs of a case.
 struct StressCase {
   Sensor sensor;
   StressGel gel;
   StressObject object;
   PressConfig press;
   SampleSpec sample;
-  std::optional<GraspSpec> grasp;  // instead of that
+  std::optional<GraspSpec> grasp;  // grasp that replaces `sample`
   double depth_m = 0.0;
-  double contact_radius_m = 0.0;  // of the object at that depth
+  double contact_radius_m = 0.0;  // contact radius of the object at that depth, m
 
-  /// What was drawn, for the record.
+  /// All drawn values, for the record.
   Value description() const;
 };
 
-/// \throw DataError where a gel cannot be meshed
+/// Draws a case. \throw DataError if its gel cannot be meshed
 StressCase draw_case(const StressConfig& config, std::uint64_t seed, std::uint64_t index);
 
-/// How a case ended. `intersected` and `inverted` are what must never happen, by the exact tests of the verdict.
+/// Outcome of a case. `intersected` and `inverted` must never occur; the exact tests of the verdict detect them.
 enum class StressOutcome { converged, not_converged, intersected, inverted };
 const char* name_of(StressOutcome outcome);
 
-/// Sums and extremes over the frames that a case has reached, frame 0 included.
+/// Sums and extremes over the frames that a case reached, including frame 0.
 struct StressTotals {
   int time_steps = 0;
-  int planned_steps = 0;  // time steps of the motion up to there, each counted once however often it was divided
+  int planned_steps = 0;  // planned time steps of these frames, each counted once even if it was divided
   int newton_iterations = 0, moving_iterations = 0, lag_iterations = 0;
-  std::optional<double> min_distance_m = {};  // absent where nothing was ever near
+  std::optional<double> min_distance_m = {};  // absent if no pair ever came near
   double min_volume_ratio = 1.0;
-  double press_force_n = 0.0;  // largest
+  double press_force_n = 0.0;  // largest press force, N
 
   static constexpr auto keys() {
     using Lines = StressTotals;
@@ -49,19 +50,20 @@ struct StressTotals {
   }
 };
 
+/// Result of a case, as stored in its record.
 struct StressResult {
   StressOutcome outcome = StressOutcome::converged;
-  std::string reason = {};                  // the solver's words, unless it converged
-  int frames_asked = 0;                     // beyond frame 0
-  int frames = 0;                           // that were reached
-  std::optional<StressTotals> totals = {};  // a grasp that ends early leaves no frames to sum up
+  std::string reason = {};                  // solver message, unless the case converged
+  int frames_asked = 0;                     // requested frames, without frame 0
+  int frames = 0;                           // reached frames
+  std::optional<StressTotals> totals = {};  // absent for a grasp that ends early and leaves no frames
 
   Value::Map lines() const;
-  /// \throw DataError naming file and key
+  /// Reads the summary of a record. \throw DataError naming file and key
   static StressResult read(const Record& summary);
 };
 
-/// Runs a case. What the solver or the verdict refuse is a result.
+/// Runs a case. An error of the solver or a failed verdict is a result, not an exception.
 StressResult run_stress_case(const StressCase& stress, const ProgressObserver& observe);
 
 }  // namespace tacipc::verify

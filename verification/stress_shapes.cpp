@@ -21,7 +21,7 @@ double volume6(const Positions& x, const auto& tet) {
   return edges.determinant();
 }
 
-/// Vertices that box_mesh makes of a box.
+/// Number of vertices of the mesh that box_mesh makes from a box.
 double count_of(const BoxGel& box) {
   const auto lines = [&](double size) {
     return static_cast<double>(
@@ -40,7 +40,7 @@ GelSpec draw_box(const StressConfig::Gel& ranges, double thickness_m, double ver
   box.growth = draws.in(ranges.growth);
   box.layer_growth = draws.in(ranges.growth);
   box.near_half_m = 0.25 * draws.unit() * std::min(box.width_m, box.height_m);
-  const double flatness = draws.in({0.5, 1.0});  // first layer over cell width
+  const double flatness = draws.in({0.5, 1.0});  // thickness of the first layer over the cell width
   for (double cell = thickness_m;; cell *= 0.98) {
     box.near_m = cell;
     box.far_m = std::max(cell, 0.5 * thickness_m);
@@ -87,7 +87,7 @@ double longest_edge_m(const TriangleMesh& mesh) {
 
 double largest_extent(const Positions& x) { return (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff(); }
 
-/// Tip down at the origin, n sides, height 1.
+/// Pyramid with the tip down at the origin, n sides, height 1.
 TriangleMesh pyramid(int sides, double half_angle_rad) {
   std::vector<Vector3> points{Vector3::Zero()};
   std::vector<std::array<int, 3>> triangles;
@@ -101,7 +101,7 @@ TriangleMesh pyramid(int sides, double half_angle_rad) {
   return make_mesh(points, triangles);
 }
 
-/// A sphere whose radius is 1 plus bumps and dents at random places.
+/// Sphere of radius 1 with bumps and dents at random positions.
 TriangleMesh blob(int n, Draws& draws) {
   TriangleMesh mesh = octahedral_sphere(n);
   struct Bump {
@@ -123,7 +123,7 @@ TriangleMesh blob(int n, Draws& draws) {
   return mesh;
 }
 
-/// A rotation from (0, 1)³, evenly distributed over all of them (Shoemake).
+/// Uniformly random rotation, from (0, 1)³ (Shoemake).
 Matrix3 any_rotation(Draws& draws) {
   const double u = draws.unit(), a = 2.0 * pi * draws.unit(), b = 2.0 * pi * draws.unit();
   return Eigen::Quaterniond(std::sqrt(u) * std::cos(b), std::sqrt(1.0 - u) * std::sin(a),
@@ -136,7 +136,7 @@ Matrix3 leaning(double tilt_rad, double direction_rad) {
   return Eigen::AngleAxisd(tilt_rad, axis).toRotationMatrix();
 }
 
-/// Pieces of a circle of this radius no longer than an edge.
+/// Number of edges on a circle of this radius, each no longer than `edge`.
 int pieces(double radius, double edge, int least) {
   return std::max(least, static_cast<int>(std::ceil(2.0 * pi * radius / edge)));
 }
@@ -295,7 +295,8 @@ StressObject draw_object(const StressConfig::Object& ranges, double gel_edge_m, 
   const Matrix3 spun = Eigen::AngleAxisd(spin, Vector3::UnitZ()).toRotationMatrix();
   Matrix3 turn = leaning(object.tilt_rad, direction) * spun;
 
-  // Every shape is first made in a size of about 1; `edge` is the wanted edge in that size, not finer than allowed.
+  // Every shape is first made in a size of about 1; `edge` is the target edge length at that size, limited by the
+  // number of vertices.
   const auto edge_for = [&](double extent, double area) {
     return std::max(object.edge_m * extent / object.size_m, std::sqrt(1.16 * area / ranges.max_vertices));
   };
@@ -315,7 +316,7 @@ StressObject draw_object(const StressConfig::Object& ranges, double gel_edge_m, 
   } else if (object.kind == "box") {
     const double a = draws.in({0.2, 1.0}), b = draws.in({0.2, 1.0});
     object.mesh = extrude({{-a / 2, -b / 2}, {a / 2, -b / 2}, {a / 2, b / 2}, {-a / 2, b / 2}}, 1.0);
-    const int stands_on = draws.below(3);  // a corner, an edge, a face
+    const int stands_on = draws.below(3);  // 0: on a corner, 1: on an edge, 2: on a face
     const Matrix3 any = any_rotation(draws);
     const double roll = draws.in({0.0, pi / 2});
     object.tilt_rad = 0.0;

@@ -1,4 +1,4 @@
-// Puts the cases of a stress campaign together. The record's `holds` says whether the campaign does.
+// Combines the cases of a stress campaign. `holds` in the record is the campaign's verdict.
 #include "common/base/error.h"
 #include "common/base/files.h"
 #include "common/base/log.h"

@@ -1,4 +1,4 @@
-// Runs one verification case: measured against expected values.
+// Runs one verification case: compares measured with expected values.
 #include <fmt/format.h>
 
 #include "common/base/files.h"

@@ -1,5 +1,5 @@
-// Puts the results of verification cases and of long rows together: the page and its plots. The record counts what
-// missed.
+// Combines the results of verification cases and of campaigns into the page and its plots. The record counts missed
+// rows.
 #include <fmt/format.h>
 
 #include "common/base/error.h"

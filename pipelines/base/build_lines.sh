@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What ninja says, for a log: a line per tenth of the build or 30 s, and every message of a compiler.
+# Condenses ninja's output for a log: a line per tenth of the build or 30 s, and every message of a compiler.
 set -euo pipefail
 tenth=0 said=0
 while IFS= read -r line; do

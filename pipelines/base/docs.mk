@@ -1,15 +1,15 @@
-# Pages of docs/ that goals make. A goal writes them, with their plots beside, to $(DOCS), which is laid out as docs/ is: running something
-# changes no source. docs-update, and nothing else, copies them into docs/.
+# Pages of docs/ that targets make. A target writes them and their plots to $(DOCS), which has the layout of docs/, so
+# that no run changes a source. Only docs-update copies them into docs/.
 
 DOCS := $(OUT)/docs
-# What a press costs, for estimate: as bench-press measured it here, else as shipped.
+# Cost of a press, for estimate: as measured here by bench-press, otherwise as shipped.
 COST_MODEL_SHIPPED := configs/studies/speed/cost_model.yaml
 COST_MODEL_MEASURED := $(OUT)/bench/page/cost_model.yaml
 COST_MODEL = $(or $(wildcard $(COST_MODEL_MEASURED)),$(COST_MODEL_SHIPPED))
 
-# $(call to_docs,files,folder of docs): nothing where there are no files
+# $(call to_docs,files,folder of docs): copies the files; does nothing without files
 to_docs = @mkdir -p $(DOCS)/$(2) && cp $(1) $(DOCS)/$(2)
-# $(call fill_docs,page,NAME=FRAGMENT …): the page of docs/ with new parts between its marks
+# $(call fill_docs,page,NAME=FRAGMENT …): writes the page of docs/ with new parts between its marks
 fill_docs = bash pipelines/base/fill_page.sh docs/$(1) $(DOCS)/$(1) $(2)
 docs_look = @echo; echo "Look at $(DOCS)/$(1) (docs-update copies it into docs/)"
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A page with parts that are made: fill_page.sh TEMPLATE PAGE NAME=FRAGMENT …
-# PAGE is TEMPLATE with each fragment between the lines `<!-- NAME -->` and `<!-- end of NAME -->`. A fragment that is not there is said to be
-# missing. A PAGE that is newer than TEMPLATE is filled in its place: parts that another goal has put into it stay.
+# Writes a page with generated parts: fill_page.sh TEMPLATE PAGE NAME=FRAGMENT … PAGE is TEMPLATE with each fragment
+# between the lines `<!-- NAME -->` and `<!-- end of NAME -->`. A missing fragment is reported. If PAGE is newer than
+# TEMPLATE, it is the template itself: parts written by other targets stay.
 set -euo pipefail
 template=$1 page=$2
 shift 2

@@ -1,4 +1,5 @@
-# What CI asks of the sources beside the tests: form, scripts, what clang-tidy finds; readers, contact and solver under sanitizers.
+# Checks of the sources by CI in addition to the tests: format, scripts, clang-tidy; readers, contact and solver under
+# sanitizers.
 
 SINCE ?=#  lint: C++ sources that differ from this commit go through clang-tidy (default: the last commit; all: every source)
 override SINCE := $(strip $(SINCE))
@@ -6,7 +7,7 @@ override SINCE := $(strip $(SINCE))
 packages_for_lint            := tests lint wrap video predict depthnet
 packages_for_check-sanitized := tests predict
 .PHONY: lint check-sanitized
-# Without the headers that the build reads in advance: what a source leaves out of its own #include lines is a finding.
+# Built without the precompiled headers, so that missing #include lines are found.
 LINTED := build/lint
 lint: build-all ## development: clang-format, shellcheck and clang-tidy (SINCE=commit, or SINCE=all for every source)
 	@cmake --preset release -B $(LINTED) -G Ninja -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DCMAKE_UNITY_BUILD=OFF > /dev/null
@@ -14,7 +15,7 @@ lint: build-all ## development: clang-format, shellcheck and clang-tidy (SINCE=c
 	git ls-files '*.sh' .ci/run | xargs shellcheck --severity=info
 	bash tests/lint/tidy.sh . $(LINTED) $(JOBS) $(or $(SINCE),HEAD~1)
 
-# Their own programs alone, in a build folder of their own.
+# Programs under sanitizers have a build folder of their own.
 SANITIZED_TESTS := common_depth_model_test common_files_test fuzz_test predict_test press_contact_test press_test
 SANITIZED := build/sanitize
 $(SANITIZED)/build.ninja: | build-all

@@ -1,23 +1,25 @@
-# How each stage makes its record from those before it.
+# Rules that make the record of each stage from the records of previous stages.
 
-# $(call run,stage,flags): a stage writes its record $@ into the folder of $@. OpenBLAS would start a thread per core as it is
-# loaded, whatever --threads says; no stage wants them.
+# $(call run,stage,flags): runs a stage, which writes its record $@ into the folder of $@. OpenBLAS would start a thread
+# per core when it is loaded, regardless of --threads; no stage needs them.
 run = $(if $(always),{ )$(run_now)$(if $(silent),, && $(call finished,$(1)))$(if $(always),; } || (code=$$?; [ $$code = 3 ] || exit $$code))
 run_now = OPENBLAS_NUM_THREADS=1 $(BIN)/$(1) --out $(@D) --threads $(THREADS) $(if $(always),--if-changed )$(if $(messages),,--log-level warning )$(2)
-# Goals that make a few results have every stage look at the content of its inputs, whatever their dates: one whose record is of these very inputs
-# and options does nothing (code 3). With any other goal dates tell (datasets compare hashes of their own), and they tell of pages, whose records are new if
-# anything in them is.
+# Targets that make few results let every stage compare the content of its inputs, regardless of their dates: a stage
+# whose record has the same inputs and options does nothing (code 3). With other targets dates decide (datasets compare
+# hashes of their own). Dates also decide for pages, whose records are new if any part is.
 looking := sample track gallery grasp scene robot robot-demo demo demo-full mpm-sample paper%
 always  := $(if $(filter-out $(looking) build packages,$(or $(MAKECMDGOALS),help)),,FORCE)
 finished = { [ ! -e $(@D)/$(1).yaml ] || awk -f pipelines/base/finished.awk $(@D)/$(1).timings.yaml $(@D)/$(1).yaml; }
-# Messages of a running stage are shown by goals that make one sample; other goals run several stages at a time. Its log has them all.
+# Targets that make one sample show the messages of a running stage; other targets run several stages at a time. The log
+# contains all messages.
 messages = $(shown)$(silent)$(filter sample grasp scene robot mpm-sample track gallery,$(MAKECMDGOALS))
-# $(call try,stage,flags): the same, but work that fails does not stop make: the page above it shows the reason in <stage>.failed.yaml.
+# $(call try,stage,flags): like `run`, but a failure does not stop make: the page above shows the reason in
+# <stage>.failed.yaml.
 try = $(call run,$(1),$(2)) || { [ $$? != 2 ] && echo "$@: not made" >&2; }
-# $(call holds,record): fails unless the record's summary says so.
+# $(call holds,record): fails unless `holds` is true in the record's summary.
 holds = @[ "$$($(BIN)/tacipc get $(1) summary.holds --default false)" = true ] || { echo "$(1): does not hold or is missing" >&2; exit 1; }
 
-# Said before stages are run that are built only where their packages are.
+# Message before stages run that are only built if their packages are installed.
 depthnet_is_built = @[ -x $(BIN)/depthnet ] && [ -x $(BIN)/predict ] || \
   { echo "depthnet, predict: not built for want of packages: make -f Makefile.data packages build GROUPS='depthnet predict'" >&2; exit 2; }
 wrap_is_built = @[ -x $(BIN)/wrap ] || { echo "wrap: not built for want of libcgal-dev: make -f Makefile.data packages build GROUPS=wrap" >&2; exit 2; }
@@ -33,8 +35,8 @@ $$(OUT)/gels/$(1)-$(2)/tetmesh.yaml: configs/sensors/$(1).yaml configs/gels/$(2)
 endef
 $(foreach s,$(SENSORS),$(foreach m,$(filter-out import_%,$(MESHES)),$(eval $(call gel_rule,$(s),$(m)))))
 
-# Embossed objects: $(OUT)/emboss/<pattern>/object.ply, then decimated in $(OUT)/objects/<pattern>
-# (a picture that a pattern names lies beside its YAML)
+# Embossed objects: $(OUT)/emboss/<pattern>/object.ply, then decimated in $(OUT)/objects/<pattern>. A picture that a
+# pattern names lies next to its YAML.
 $(OUT)/emboss/%/emboss.yaml: configs/objects/patterns/%.yaml $(wildcard configs/objects/patterns/*.png) $(always) | build
 	$(call run,emboss,--config $<)
 
@@ -43,8 +45,8 @@ $(OUT)/objects/%/decimate.yaml: $(OUT)/emboss/%/emboss.yaml configs/objects/embo
 
 REFERENCES := $(wildcard configs/sensors/*.png)# photographs that sensors name
 
-# One sample: $(call sample_rules,folder,key=value …) with the keys name, object (a folder), object_yaml, sensor, mesh, motion (a file) and press
-# (a file); `after` for every further prerequisite; by=try if its failure does not stop make.
+# One sample: $(call sample_rules,folder,key=value …) with the keys name, object (a folder), object_yaml, sensor, mesh,
+# motion (a file) and press (a file); `after` for every further prerequisite; by=try if a failure must not stop make.
 define sample_rules
 $(call fields,sample,name object object_yaml sensor mesh motion press after by,$(2))
 $(1)/press/press.yaml: $(sample_object)/decimate.yaml $(sample_object_yaml) $$(OUT)/gels/$(sample_sensor)-$(sample_mesh)/tetmesh.yaml \
@@ -62,12 +64,13 @@ $(1)/report/report.yaml: $(addsuffix /render/render.yaml,$(3)) | build
 	$$(call run,report,--title "$(2)" $(addprefix --sample ,$(3)))
 endef
 
-# What of a dataset there is, failures and their reasons included: the page that make cannot make while a sample fails.
+# Page over the existing part of a dataset, including failures and their reasons, which make cannot build while a sample
+# fails.
 .PHONY: page
 page: | build ## own: Page over the samples of OUT/DATASET, failed ones too: DATASET=demo (after make -k)
 	$(if $(DATASET),,$(error page: say which, for instance DATASET=demo))
 	$(BIN)/report --out $(OUT)/$(DATASET)/report --title "$(DATASET)" $(addprefix --sample ,$(patsubst %/press/,%,$(wildcard $(OUT)/$(DATASET)/*/press/)))
 	$(call look,$(OUT)/$(DATASET))
 
-# Where to look, said when a goal is done.
+# Final message of a target: where to look.
 look = @echo; echo "Look at $(1)/report/index.html and $(1)/report/contact_sheet.png"

@@ -1,26 +1,27 @@
-# Datasets: one YAML to thousands of samples, on this machine or on a cluster. make -f Makefile.data dataset CONFIG=configs/datasets/mini.yaml
-# docs/datasets.md is the guide. Everything of a dataset lies in $(OUT)/datasets/<name of the file>.
+# Datasets: from one YAML to thousands of samples, on this machine or on a cluster: make -f Makefile.data dataset
+# CONFIG=configs/datasets/mini.yaml
+# docs/datasets.md is the guide. All files of a dataset lie in $(OUT)/datasets/<name of the file>.
 
 CONFIG ?=#       the dataset: a file of configs/datasets or your own
-PARTS  ?= 1#     into how many parts the samples are divided, for a cluster;
-PART   ?=#       the one to make, from 0 on
+PARTS  ?= 1#     number of parts of the samples, for a cluster
+PART   ?=#       part to make, from 0
 SHARDS ?= 8#     parts that submit hands to the cluster
-SITE   ?= configs/datasets/slurm/default.sh#  what submit needs to know of it
-RETRY  ?=#       yes: try failed samples again
+SITE   ?= configs/datasets/slurm/default.sh#  settings of the cluster, for submit
+RETRY  ?=#       yes: make failed samples again
 PILOT  ?= 0#     samples that estimate makes first, to measure
 SAMPLES ?=#      folders of samples below samples/, for dataset-some
 K      ?= 3#     samples that reproduce makes again
-STOP_AFTER ?=#   failures in a row after which a run stops (default: as the dataset says)
-REPORT ?= configs/datasets/report/default.yaml#  how much dataset-report shows sample by sample
+STOP_AFTER ?=#   successive failures after which a run stops (default: from the dataset)
+REPORT ?= configs/datasets/report/default.yaml#  number of samples with pages in dataset-report
 $(foreach v,CONFIG PARTS PART SHARDS SITE RETRY PILOT SAMPLES K STOP_AFTER REPORT,$(eval override $(v) := $(strip $($(v)))))
 
-DATASET_PLANNED := plan dataset dataset-part dataset-shared dataset-last retry submit estimate dataset-some drop#  goals that need the plan's rules;
-DATASET_READ := status dataset-report reproduce bundle clean-plan clean-press clean-render#         and those that only look into its folder
+DATASET_PLANNED := plan dataset dataset-part dataset-shared dataset-last retry submit estimate dataset-some drop#  targets that need the plan's rules
+DATASET_READ := status dataset-report reproduce bundle clean-plan clean-press clean-render#         targets that only read its folder
 DATASET_GOALS := $(DATASET_PLANNED) $(DATASET_READ)
 .PHONY: $(DATASET_GOALS) dataset-samples
 
 # A Slurm of one machine, to try submit.
-LOCAL_SLURM ?= $(or $(TMPDIR),/tmp)/local-slurm-$(shell id -un)#  its folder
+LOCAL_SLURM ?= $(or $(TMPDIR),/tmp)/local-slurm-$(shell id -un)#  folder of that Slurm
 packages_for_local-slurm := cluster
 .PHONY: local-slurm local-slurm-stop
 local-slurm: | packages ## datasets: Start a Slurm on this machine alone, to try submit (says what to export)
@@ -46,14 +47,15 @@ dataset_variables := CONFIG=$(CONFIG) OUT=$(OUT) BUILD=$(BUILD) PACKAGES=$(PACKA
 submit_variables := THREADS=$(THREADS) $(foreach v,PACK CARD,$(if $(filter command environment,$(firstword $(origin $(v)))),\
   $(v)=$(strip $($(v)))))# if they are given
 
-# A file that changes if another file was chosen for a gel, an object, a motion or a rendering, however old that one is.
-# (A plan made by an earlier version has none.)
+# File that changes if another file is chosen for a gel, an object, a motion or a rendering, regardless of that file's
+# age. A plan of an earlier version has none.
 dataset_choice = $(if $(DATASET_CHOICES),$(DATASET_CHOICES)/$(1))
-# If several runs miss a gel or an object, one makes it and the others take that one. A gel that fails stops make; an object is noted in
-# failures.csv, as a sample is. $(call dataset_shared,stage,what it is made of,flags)
+# If several runs lack a gel or an object, one makes it and the others use it. A gel that fails stops make; a failed
+# object is recorded in failures.csv, like a sample. $(call dataset_shared,stage,prerequisites,flags)
 dataset_shared = TACIPC='$(BIN)/tacipc' RETRY='$(DATASET_RETRY)' STOP_AFTER='$(or $(STOP_AFTER),$(DATASET_STOP_AFTER))' \
   bash pipelines/dataset/dataset_shared.sh '$(DATASET_DIR)' '$(DATASET_RUN)' '$@' '$(2)' $(call run,$(1),$(3))
-# A gel, $(call dataset_gel,name,sensor,mesh,mesh to import,photographs and further sensors for render); an object, by its pattern or mesh.
+# A gel: $(call dataset_gel,name,sensor,mesh,mesh to import,photographs and further sensors for render). An object is
+# made from its pattern or mesh.
 define dataset_gel
 DATASET_SENSOR_$(1) := $(2)
 DATASET_RENDERED_$(1) := $(5)
@@ -82,8 +84,9 @@ $(DATASET_DIR)/objects/$(1)/wrap/wrap.yaml: $(2) $(DATASET_DIR)/objects/$(1)/obj
 $(call dataset_mesh,$(1),$(DATASET_DIR)/objects/$(1)/wrap/object.ply,$(DATASET_DIR)/objects/$(1)/wrap/wrap.yaml,wrap/)
 endef
 
-# The stages of a sample, one after the other: one rule, so that with several jobs samples are finished one by one. Failures are noted in
-# failures.csv and do not stop make, unless there are many in a row. $(call dataset_stage,stage,record,what it is made of,flags)
+# The stages of a sample, in order: one rule, so that with several jobs samples are finished one by one. Failures are
+# recorded in failures.csv and do not stop make, unless there are many in a row. $(call
+# dataset_stage,stage,record,prerequisites,flags)
 DATASET_RUN := $(DATASET_DIR)/.runs/$(shell hostname)-$(shell echo $$PPID)-$(shell date +%s%N)
 dataset_stage = @TACIPC='$(BIN)/tacipc' RETRY='$(DATASET_RETRY)' STOP_AFTER='$(or $(STOP_AFTER),$(DATASET_STOP_AFTER))' \
   bash pipelines/dataset/dataset_stage.sh '$(DATASET_DIR)' '$(DATASET_RUN)' $(1) '$(2)' '$(3)' \
@@ -106,8 +109,8 @@ $(DATASET_DIR)/samples/$(1)/render/render.yaml: $(sort $(dataset_press_inputs) $
 $(foreach m,$(DATASET_ENSEMBLE_$(3)),$(call dataset_member,$(1),$(2),$(word 1,$(subst :, ,$(m))),$(word 2,$(subst :, ,$(m))),$(4),$(5),$(7)))
 endef
 
-# The press of a sample by a member of an ensemble, after the sample and only if that was pressed.
-# $(call dataset_member,place,object,member,its gel,press,paths,motion)
+# Press of a sample by a member of an ensemble, after the sample and only if the sample was pressed. $(call
+# dataset_member,place,object,member,its gel,press,paths,motion)
 dataset_member_inputs = $(call dataset_press_inputs,$(1),$(2),$(4),$(5),$(6),,$(7))
 dataset_member_record = $(DATASET_DIR)/samples/$(1)/ensemble/$(3)/press/press.yaml
 define dataset_member
@@ -118,8 +121,8 @@ $(dataset_member_record): $(sort $(dataset_member_inputs)) | $(DATASET_DIR)/samp
 
 endef
 
-# A grasp is pressed once, in its own folder; each of its fingers, left/ and right/ there, is a sample with press/ and render/. Both have a rule
-# together, which the plan gives twice where they belong to two blocks.
+# A grasp is pressed once, in its own folder; each of its fingers, left/ and right/ there, is a sample with press/ and
+# render/. Both share a rule, which the plan contains twice if they belong to two blocks.
 define dataset_grasp_rule
 DATASET_GRASP_$(1) := known
 $(DATASET_DIR)/samples/$(1)/left/render/render.yaml $(DATASET_DIR)/samples/$(1)/right/render/render.yaml &: \
@@ -131,17 +134,19 @@ endef
 dataset_grasp = $(if $(DATASET_GRASP_$(1)),,$(dataset_grasp_rule))
 
 ifneq ($(filter $(DATASET_PLANNED),$(MAKECMDGOALS)),)
-# The plan is made first, then make restarts with its rules: gels and objects, then the samples in blocks of a
-# thousand, of which a part takes what it needs.
+# The plan is made first, then make restarts with its rules: gels and objects, then the samples in blocks of a thousand,
+# of which a part takes what it needs.
 DATASET_BEGAN := $(shell date +%s.%N)
-# A plan that is being made again is waited for: what is read below is of one plan, and without its record only where nobody lived to write that.
+# Wait while a plan is made again, so that everything read below belongs to one plan. A plan without record remains only
+# if the run that made it was killed before it wrote the record.
 dataset_plan_lock := $(DATASET_DIR)/plan/.lock-plan
 $(shell [ ! -e '$(dataset_plan_lock)' ] || flock -s -w 600 '$(dataset_plan_lock)' true)
-# Parts take the plan as they find it: others of the same run are at work by it. (A folder of meshes is newer with every file that comes into it.)
-# They have no rule for its files, so that nothing looks for the record once more while another run replaces it.
+# Parts use the plan as it is, because other parts of the same run work with it. (A folder of meshes becomes newer with
+# every file added to it.) They have no rule for its files, so that make does not look for the record again while
+# another run replaces it.
 ifeq ($(and $(filter dataset-part dataset-last,$(MAKECMDGOALS)),$(wildcard $(DATASET_DIR)/plan/plan.yaml)),)
-# Of several runs that miss the plan together, one makes it and the others take that one. A plan that is refused leaves record and times of
-# the old one, so .DELETE_ON_ERROR finds nothing to delete; make stops here, and parts go on with what was planned before.
+# If several runs lack the plan, one makes it and the others use it. A refused plan leaves record and times of the old
+# one, so .DELETE_ON_ERROR deletes nothing; make stops here, and parts continue with the earlier plan.
 $(DATASET_DIR)/plan/plan.yaml: $(CONFIG) | build
 	@mkdir -p $(@D); exec 9> $(@D)/.making; flock 9; \
 	if [ -e $@ ] && [ "$$(date -r $@ +%s.%N)" \> '$(DATASET_BEGAN)' ]; then exit 0; fi; \
@@ -171,14 +176,15 @@ endif
 endif
 
 DATASET_RETRY := $(if $(filter retry,$(MAKECMDGOALS)),yes,$(RETRY))
-dataset_members = $(if $(DATASET_ENSEMBLE),$(foreach s,$(1),$(DATASET_MEMBERS_$(s))))# presses of an ensemble beside these samples
+dataset_members = $(if $(DATASET_ENSEMBLE),$(foreach s,$(1),$(DATASET_MEMBERS_$(s))))# presses of an ensemble for these samples
 dataset-samples: $(DATASET_LIST:%=$(DATASET_DIR)/samples/%/render/render.yaml) $(call dataset_members,$(DATASET_LIST))
 
 plan: $(DATASET_DIR)/plan/plan.yaml ## datasets: Samples of a dataset, without making them: CONFIG=configs/datasets/mini.yaml
 	@echo; echo "$(DATASET_SAMPLES) samples; look at $(DATASET_DIR)/plan/samples.csv"
 
-# What a run ends with: samples that are made are packed, failed ones listed, and what outputs.keep does not name is dropped. Make begins
-# anew for it, as what there is to pack has only now been made. A failed sample does not stop the others; the last line does not let it pass unseen.
+# End of a run: made samples are packed, failed ones listed, and files that outputs.keep does not name are dropped. Make
+# starts again for this, because the packing inputs have only now been made. A failed sample does not stop the others;
+# the last line reports it.
 define dataset_end
 	@ended=0; $(if $(filter none,$(DATASET_PROFILE)),,($(call dataset_alone,$@) && $(call make_again,-s dataset-pack REBUILD=no) && \
 	  $(BIN)/survey drop --whole-shards '$(DATASET_DIR)' $(filter-out $(DATASET_KEEP),press render)) || ended=$$?;) \
@@ -205,7 +211,7 @@ estimate: $(DATASET_SHARED) $(DATASET_PILOT:%=$(DATASET_DIR)/samples/%/render/re
 	@$(BIN)/survey estimate '$(DATASET_DIR)' --model $(COST_MODEL)
 	@echo "  cost model: $(COST_MODEL)$(if $(filter $(COST_MODEL_SHIPPED),$(COST_MODEL)),$(comma) as shipped: bench-press measures this machine)"
 
-# On a cluster: gels and objects, then the parts, then what comes last, as three jobs.
+# On a cluster there are three jobs: gels and objects, then the parts, then the end of the run.
 dataset-last:
 	$(dataset_end)
 drop: ## datasets: Remove files of packed samples that outputs.keep does not name: CONFIG=

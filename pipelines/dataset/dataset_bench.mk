@@ -1,4 +1,5 @@
-# How many samples a core makes in an hour: configs/datasets/press_64.yaml from nothing to packed. Nothing else should run beside it.
+# Measures how many samples a core makes in an hour: configs/datasets/press_64.yaml from nothing to packed. Nothing else
+# should run at the same time.
 
 DATASET_BENCH := $(OUT)/dataset-bench
 .PHONY: bench-dataset
@@ -17,7 +18,8 @@ bench-dataset: | build
 	bash pipelines/dataset/dataset_bench.sh $(DATASET_BENCH) $(JOBS) $(BIN)/tacipc > $(DOCS)/dataset_performance.md
 	@cat $(DOCS)/dataset_performance.md
 
-# What its settings change: the first sample with friction lagged once, and its last frame in default and in converged light.
+# Influence of its settings: the first sample with friction lagged once, and its last frame in default and in converged
+# light.
 BENCH_SAMPLE := $(DATASET_BENCH)/datasets/press_64/samples/000/mctac__dots__press__000000
 BENCH_CHOICES := $(DATASET_BENCH)/choices
 BENCH_GEL := $(DATASET_BENCH)/datasets/press_64/gels/mctac-adaptive_0100um/gel.msh

@@ -1,5 +1,5 @@
 #!/bin/bash
-# dataset_bench.sh FOLDER JOBS TACIPC: the page of bench-dataset.
+# dataset_bench.sh FOLDER JOBS TACIPC: writes the page of bench-dataset.
 # shellcheck disable=SC2016  # backquotes of the page
 set -euo pipefail
 folder=$1 jobs=$2 tacipc=$3

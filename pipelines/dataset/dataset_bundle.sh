@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Everything that one sample was or should have been made of, and a script that makes it again: dataset_bundle.sh DATASET SAMPLE ARCHIVE PROGRAMS
-# Works for failed samples too: dataset_stage.sh keeps the command of each stage that it starts, and what make says it depends on.
+# Bundles all inputs of one sample and a script that makes it again: dataset_bundle.sh DATASET SAMPLE ARCHIVE PROGRAMS
+# It also works for failed samples: dataset_stage.sh keeps the command of each stage that it starts, and its make
+# prerequisites.
 # shellcheck disable=SC2016  # what replay.sh expands, not this
 set -euo pipefail
 export LC_ALL=C
@@ -9,7 +10,7 @@ tacipc=$programs/tacipc
 folder=$("$tacipc" table "$dataset/plan/samples.csv" --columns folder --where id="$(basename "$sample")")
 [ -n "$folder" ] || { echo "bundle: $(basename "$sample") is no sample of $dataset" >&2; exit 1; }
 folder=$(realpath "$dataset/$folder")
-# A finger of a grasp was pressed where both were, in the folder above its own.
+# A finger of a grasp was pressed together with the other one, in the folder above its own.
 declare -A ran=([press]=$folder/press [render]=$folder/render)
 grasp=$folder
 case $folder in */left | */right) grasp=$(dirname "$folder") ran[press]=$grasp ;; esac
@@ -22,7 +23,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/expected"
 
-# Files that the commands name, what make says they depend on, and the plan's copies of paths that a motion follows.
+# Files that the commands name, their make prerequisites, and the plan's copies of paths that a motion follows.
 : > "$work/named"
 for stage in press render; do
   [ -e "${ran[$stage]}/.command" ] || continue
@@ -36,7 +37,7 @@ done
 "$tacipc" paths "$grasp/sample.yaml" | while read -r path; do realpath "$path"; done >> "$work/named"
 sort -u "$work/named" | grep -v -e '/decimate.yaml$' -e '/tetmesh.yaml$' -e '/press/press.yaml$' -e "^$grasp/press.yaml\$" -e '/choices/' > "$work/all"
 
-# The folders keep their places to each other, so that records are equal byte for byte.
+# The folders keep their relative positions, so that records are equal byte for byte.
 root=$(dirname "$grasp")
 while read -r file; do
   while [[ "$file" != "$root"/* ]]; do root=$(dirname "$root"); done

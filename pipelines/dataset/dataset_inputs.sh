@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# What make cannot see of the files that a plan is made of: dataset_inputs.sh DATASET CONFIG. Says `changed` if one of them has been replaced since
-# by an older one (cp -p, unzip), `future` and on stderr which if one, or a record or another file that make goes by, has a time still to come:
-# nothing made of it would ever be newer.
+# Finds changes of a plan's input files that make cannot see: dataset_inputs.sh DATASET CONFIG. It prints `changed` if a
+# file has been replaced by an older one (cp -p, unzip). It prints `future`, and the file on stderr, if the time of an
+# input, a record or another file used by make lies in the future: no result would ever be newer.
 # shellcheck disable=SC2016  # what the inner bash expands
 set -euo pipefail
 export LC_ALL=C
 dataset=$1 config=$2
-# The time that counts is what a file made here gets now: the clock of a file server may be another one.
-{ mkdir -p "$dataset" && now=$(mktemp "$dataset/.now-XXXXXX"); } 2> /dev/null || exit 0  # plan will say what is wrong
+# The reference time is that of a file made here now, because the clock of a file server may differ.
+{ mkdir -p "$dataset" && now=$(mktemp "$dataset/.now-XXXXXX"); } 2> /dev/null || exit 0  # the plan reports the error
 trap 'rm -f "$now"' EXIT
-# What is not there (yet, or any more) is the plan's to say.
+# Missing files are reported by the plan.
 named() { echo "$config"; cat "$dataset/plan/inputs.txt" 2> /dev/null || true; }
 of_named() { named | xargs -r bash -c 'tests=$1; shift; find -L "$@" -prune $tests' bash "$1" 2> /dev/null || true; }
 of_dataset() { # files that products of the dataset are compared with, times as in of_named

@@ -1,12 +1,13 @@
 # shellcheck shell=bash
-# The ledger of a dataset, DATASET/failures.csv, for scripts that run a stage: one row per failed try. Sourced; the script has set
-#   dataset  its folder               run     file that counts consecutive failures      stage     that is run
-#   folder   of the stage             failed  file of the stage's failure                sample    name of what is made: id of the row
-#   prerequisites  what it is made of; names may have wildcards
+# The ledger of a dataset, DATASET/failures.csv, for scripts that run a stage: one row per failed attempt. It is
+# sourced; the script has set
+# dataset: its folder; run: file that counts consecutive failures; stage: name of the stage;
+# folder: folder of the stage; failed: file of the stage's failure; sample: name of the result, the id of the row;
+# prerequisites: its prerequisites, whose names may have wildcards;
 # and has STOP_AFTER and TACIPC in its environment.
 # shellcheck disable=SC2016,SC2034,SC2154  # write expands its commands and what they use; names are the script's
 
-# Whether a file is there and no prerequisite is newer.
+# True if a file exists and no prerequisite is newer.
 current() {
   [ -e "$1" ] || return 1
   local p
@@ -15,8 +16,8 @@ current() {
   done
 }
 
-# Whether all that it is made of is there. A gel or an object is gone for a moment while another run makes it again; without the stage before it
-# (which failed) there is nothing to do.
+# True if all prerequisites exist. A gel or an object is absent for a moment while another run makes it again; without
+# the previous stage (which failed) there is nothing to do.
 inputs_are_there() {
   local p
   for p in $prerequisites; do
@@ -25,7 +26,7 @@ inputs_are_there() {
     [ -e "$p" ] || return 1
   done
 }
-# Differs when one of them changed, or is gone.
+# Text that differs if a prerequisite changed or is gone.
 # shellcheck disable=SC2086  # names of several files
 state_of_inputs() { stat -L -c '%n %i %s %.Y' $prerequisites 2> /dev/null || true; }
 
@@ -34,7 +35,7 @@ stop_if_many() {
     { echo "$STOP_AFTER failures in a row, see $ledger; stopped" >&2; exit 1; }
 }
 
-# One row per failed try, for people and for pack: one line each, whatever the message holds, and whole or not at all.
+# One row per failed attempt, for people and for pack: one line each for any message, and complete or absent.
 ledger=$dataset/failures.csv
 row() { # row REASON
   local reason=${1//[$'\n\r']/ }
@@ -47,7 +48,7 @@ add_row() { # add_row REASON; with the lock
   size=$(stat -c %s "$ledger" 2> /dev/null || echo 0)
   { echo "$text" >> "$ledger"; } 2> /dev/null || { truncate -c -s "$size" "$ledger"; return 1; }
 }
-# The lock is made early, while there is room.
+# The lock is made early, while there is disk space.
 lock=$dataset/.ledger-lock
 note_failure() { # note_failure REASON
   { flock 8 && add_row "$1"; } 8<> "$lock" || no_room "$ledger cannot be written"
@@ -55,11 +56,12 @@ note_failure() { # note_failure REASON
   echo "$sample: $stage failed: $1" >&2
 }
 
-# The disk takes nothing more: no other sample would fare better. The first to meet it says so; nothing is left that makes its sample count as failed.
+# The disk is full: no other sample would succeed either. The first script to meet this reports it, and nothing is left
+# that makes its sample count as failed.
 full='nothing more can be written'
 reserve=$dataset/.reserve  # room for a row at that time
 reserved=16384
-# The reserve becomes the ledger. Were it removed first, another stage that still writes could take its room.
+# The reserve becomes the ledger. If it were removed first, another stage that is still writing could take its space.
 row_in_reserve() { # row_in_reserve REASON; with the lock
   local text
   text=$({ [ ! -e "$ledger" ] || cat "$ledger"; } && row "$1")
@@ -82,13 +84,13 @@ no_room() { # no_room REASON
   exit 1
 }
 
-# A failed write beside the stage is reported as stages do: write FILE COMMANDS
+# A failed write next to the stage is reported as stages report theirs: write FILE COMMANDS
 write() {
   local said
   said=$(eval "$2" 2>&1) || no_room "$1 cannot be written: ${said##*: }"
 }
 
-# Before a stage runs: not if the run is over; locks and room for a row are there while there is room.
+# Before a stage runs: stop if the run is over, and make locks and a reserve for a row while there is disk space.
 prepare_ledger() {
   stop_if_many
   if disk_is_full; then exit 1; fi
@@ -98,12 +100,12 @@ prepare_ledger() {
     { head -c $reserved /dev/urandom > "$mine" && mv "$mine" "$reserve"; } || { rm -f "$mine"; false; }'
 }
 
-# run_noting_failure COMMAND...: a stage; its messages are in $said. Exit 1: the disk is full; 2: wrong configuration. What else went wrong is in
-# the ledger.
+# run_noting_failure COMMAND...: runs a stage; its messages are in $said. Exit 1: the disk is full; 2: wrong
+# configuration. Other failures are in the ledger.
 run_noting_failure() {
   local try before status reason signal
   said=''
-  # A stage that ends because an input changed or was gone for a moment has not failed: run it once more.
+  # A stage that ends because an input changed or was absent for a moment has not failed: it runs once more.
   for try in 1 2 3; do
     before=$(state_of_inputs)
     status=0
@@ -129,7 +131,8 @@ run_noting_failure() {
       note_failure "${reason:-no reason given}" ;;
     129 | 130 | 143) exit "$status" ;;  # interrupted, as make itself is: begun again next time
     *)
-      # Killed, by the kernel for want of memory or by itself. Where the whole job is being killed, this does not live to say so.
+      # Killed, by the kernel for lack of memory or by itself. If the whole job is being killed, this script does not
+      # survive to report it.
       sleep 1
       signal=$((status - 128))
       write "$failed" 'printf "stage: %s\nname: %s\nmessage: killed by signal %s\n" "$stage" "$sample" "$signal" > "$failed"'

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Makes some samples of a dataset once more, from their plan on, and compares bytes: dataset_reproduce.sh DATASET COUNT MAKE-VARIABLES...
-# It works in a folder beside the dataset, from where everything has the same relative path, so that records are equal too.
+# Makes some samples of a dataset again, starting with their plan, and compares bytes: dataset_reproduce.sh DATASET
+# COUNT MAKE-VARIABLES... It works in a folder next to the dataset, from which everything has the same relative path, so
+# that records are also equal.
 set -euo pipefail
 export LC_ALL=C
 dataset=$1 count=$2
@@ -12,7 +13,7 @@ mapfile -t picked < <(find "$dataset/samples" -mindepth 4 -maxdepth 5 -name rend
 [ "${#picked[@]}" -gt 0 ] || { echo "reproduce: no sample of $dataset is made" >&2; exit 1; }
 make -s -f Makefile.data dataset-some "$@" DATASET_DIR="$scratch" SAMPLES="${picked[*]}" > "$dataset/.reproduce.log" 2>&1 ||
   { cat "$dataset/.reproduce.log" >&2; exit 1; }
-# Of a stage of which the files were dropped the record is left, which has their hashes.
+# A stage whose files were dropped still has its record, which contains their hashes.
 equal() { # equal SAMPLE
   local made=$dataset/samples/$1 again=$scratch/samples/$1 stage same=yes
   local -a whole=(--exclude='.*' --exclude='*.log' --exclude='*.timings.yaml')

@@ -1,4 +1,5 @@
-# The chain with very many samples: real stages on a gel of some 70 vertices and pictures of 16 x 12 pixels, one frame each, packed and reported.
+# Scale test with very many samples: real stages on a gel of some 70 vertices and pictures of 16 x 12 pixels, one frame
+# each, packed and reported.
 
 SCALE_SAMPLES ?= 100000#  bench-scale: a multiple of ten
 override SCALE_SAMPLES := $(strip $(SCALE_SAMPLES))

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# dataset_scale.sh DATASET BIN: what a finished dataset takes on disk, and what each step of it took.
+# dataset_scale.sh DATASET BIN: disk space of a finished dataset, and cost of each of its steps.
 set -euo pipefail
 dataset=$1 bin=$2
-# cost RECORD…: the sum of processor seconds, seconds and the largest memory of these stages' timings.
+# cost RECORD…: sum of processor seconds and seconds, and the largest memory, in the timings of these stages.
 cost() {
   local record
   for record in "$@"; do "$bin/tacipc" get "$record" processor_s wall_s peak_memory_mb | paste -sd ' '; done |
@@ -12,7 +12,7 @@ all() { find "$dataset" -maxdepth "$1" -name "$2.timings.yaml"; }
 echo '| | runs | of processor, s | one after the other, s | largest process, MB |'
 echo '|---|---|---|---|---|'
 echo "| plan | $(cost "$dataset/plan/plan.timings.yaml")"
-# Of samples the table that the card made has seconds and memory.
+# Seconds and memory of samples are in the table that the card made.
 for stage in press render; do
   "$bin/tacipc" table "$dataset/pack/timings.csv" --columns "${stage}_processor_s,${stage}_wall_s,${stage}_peak_memory_mb" |
     awk -v stage="$stage" '{ processor += $1; wall += $2; if ($3 > memory) memory = $3 }

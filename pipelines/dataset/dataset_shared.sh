@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# A gel or an object of a dataset, for make: dataset_shared.sh DATASET RUN RECORD PREREQUISITES COMMAND... (prerequisites may have wildcards).
-# Several runs may find it missing or old: one makes it, the others wait and take it. Made anew by each, it would be gone for a moment while
-# samples are made of it, and newer than they are.
-# A gel that cannot be made stops make. An object that cannot is noted in DATASET/failures.csv and left alone until an input changes or RETRY=yes;
-# its samples then fail by dataset_stage.sh, and make goes on with the others. Its exit codes are those of dataset_stage.sh.
+# Makes a gel or an object of a dataset, for make: dataset_shared.sh DATASET RUN RECORD PREREQUISITES COMMAND...
+# (prerequisites may have wildcards).
+# Several runs may find it missing or old: one makes it, the others wait and use it. If each made it again, it would be
+# absent for a moment while samples are made from it, and then newer than they are.
+# A gel that cannot be made stops make. An object that cannot is recorded in DATASET/failures.csv and skipped until an
+# input changes or RETRY=yes; its samples then fail by dataset_stage.sh, and make continues with the others. Exit codes
+# are those of dataset_stage.sh.
 # shellcheck disable=SC2034  # names that dataset_ledger.sh takes
 set -euo pipefail
 export LC_ALL=C
@@ -24,7 +26,7 @@ fi
 if current "$record"; then exit 0; fi
 case $folder in "$dataset"/gels/*) exec env "$@" ;; esac
 
-# If another stage should have made an input first and could not, the reason is that stage's.
+# If another stage failed to make an input, the reason is that stage's.
 for p in $prerequisites; do
   cause=${p%.yaml}.failed.yaml
   if [ -e "$p" ] || [ ! -e "$cause" ]; then continue; fi
@@ -35,4 +37,4 @@ done
 if [ "${RETRY:-}" != yes ] && current "$failed"; then exit 0; fi
 prepare_ledger
 run_noting_failure "$@"
-if [ -n "$said" ] && [ -e "$record" ]; then echo "$said" >&2; fi  # warnings; those of samples, too many, are in their logs
+if [ -n "$said" ] && [ -e "$record" ]; then echo "$said" >&2; fi  # warnings; those of samples are only in their logs, because there are too many

@@ -1,8 +1,11 @@
 #!/usr/bin/env bash
-# One stage of one sample, for make: dataset_stage.sh DATASET RUN STAGE RECORD PREREQUISITES COMMAND...
-# Exit 0: made, made by someone else meanwhile, or failed and noted in DATASET/failures.csv, so that make goes on with the others.
-# Exit 1: too many failures in a row (STOP_AFTER), or the disk takes nothing more, which is no fault of the sample: it counts as not tried.
-# Exit 2: the configuration is wrong. A sample that failed before is left alone until an input changes or RETRY=yes.
+# Runs one stage of one sample, for make: dataset_stage.sh DATASET RUN STAGE RECORD PREREQUISITES COMMAND...
+# Exit 0: made, made by another run meanwhile, or failed and recorded in DATASET/failures.csv, so that make continues
+# with the others.
+# Exit 1: too many failures in a row (STOP_AFTER), or the disk is full. That is not an error of the sample, which counts
+# as not attempted.
+# Exit 2: the configuration is wrong.
+# A sample that failed before is skipped until an input changes or RETRY=yes.
 # shellcheck disable=SC2016,SC2034  # write expands its commands, and dataset_ledger.sh takes names that are set here
 set -euo pipefail
 export LC_ALL=C
@@ -10,12 +13,12 @@ dataset=$1 run=$2 stage=$3 record=$4 prerequisites=$5
 shift 5
 folder=${record%/*} sample=${record#"$dataset"/samples/*/}  # without processes: a tiny sample is as quick as these
 sample=${sample%/"$stage.yaml"}
-sample=${sample%/"$stage"}  # what is left for a grasp is its name, for the images of a finger that with /left or /right
+sample=${sample%/"$stage"}  # the rest is the grasp's name; for the images of a finger with /left or /right
 failed=$folder/$stage.failed.yaml
 # shellcheck source=pipelines/dataset/dataset_ledger.sh
 . "${BASH_SOURCE[0]%/*}/dataset_ledger.sh"
 
-# The press of a sample whose object could not be made fails with it; that is one row of the ledger, the object's.
+# The press of a sample whose object could not be made fails with it; the ledger only has the object's row.
 fail_with_object() {
   local p cause reason text
   for p in $prerequisites; do
@@ -34,7 +37,8 @@ fail_with_object() {
 
 inputs_are_there || { fail_with_object; exit 0; }
 prepare_ledger
-# Two runs that were given the same sample: one makes it, the other waits and finds it made. A stage that outlives its make keeps the lock.
+# If two runs have the same sample, one makes it, and the other waits and finds it made. A stage that outlives its make
+# keeps the lock.
 exec 9> "$folder/.making"
 if ! flock -n 9; then
   flock 9

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Writes and submits the Slurm jobs of a dataset: dataset_submit.sh DATASET SITE SHARDS MAKE-VARIABLES...
-# One job makes gels and objects, an array of SHARDS elements the samples, one job what comes last. An element makes one part of the samples one
-# after the other on one core; killed, requeued or submitted again it resumes. Job ids are appended to DATASET/slurm/jobs.txt.
+# One job makes gels and objects, an array of SHARDS elements the samples, and one job the end of the run. An element
+# makes one part of the samples one after the other on one core; if it is killed, requeued or submitted again, it
+# resumes. Job ids are appended to DATASET/slurm/jobs.txt.
 # shellcheck disable=SC2016  # what the jobs expand
 set -euo pipefail
 dataset=$1 site=$2 shards=$3
@@ -17,9 +18,9 @@ threads=1
 for variable in "$@"; do
   case $variable in THREADS=*) threads=${variable#*=} ;; esac
 done
-# memory_mb is of a part, Slurm's of a core.
+# memory_mb applies to a part, Slurm's value to a core.
 [ -z "$memory_mb" ] || memory_mb=$(((memory_mb + threads - 1) / threads))
-# A lock that other nodes do not see lets two of them make the same sample.
+# If other nodes do not see a lock, two of them may make the same sample.
 mounted=$(findmnt -n -o SOURCE,FSTYPE,OPTIONS -T "$(dirname "$dataset")" 2> /dev/null || true)
 if grep -Eq '[ ,](localflock|noflock|nolock|local_lock=(all|flock))(,|$)' <<< "$mounted"; then
   echo "submit: locks on this file system stay on one node ($mounted): submit again only when no job of $name is left" >&2

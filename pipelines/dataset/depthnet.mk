@@ -1,6 +1,6 @@
-# A network that reads depth from touch, trained on a packed dataset and judged on its test objects:
-#   make -f Makefile.data depthnet CONFIG=configs/datasets/mini.yaml [NET=default]
-# With NET=outcome, or any with `task: outcome`, networks that foretell what becomes of grasps.
+# Network that estimates depth from tactile images, trained on a packed dataset and evaluated on its test objects: make
+# -f Makefile.data depthnet CONFIG=configs/datasets/mini.yaml [NET=default]
+# With NET=outcome, or any with `task: outcome`, networks that predict the outcome of grasps.
 $(call uses,dataset/pack)
 
 NET ?= default#        depthnet: a file of configs/depthnet, or a path
@@ -27,7 +27,7 @@ ifeq ($(findstring test-,$(file < $(DEPTHNET_LIST))),)
 endif
 DEPTHNET := $(DATASET_DIR)/depthnet/$(basename $(notdir $(NET)))
 DEPTHNET_SHARDS := $(DEPTHNET_LIST) $(wildcard $(DATASET_DIR)/shards/*/pack.yaml)
-# Another network of that name is another network however old its file is.
+# A changed network file under the same name counts as another network, regardless of the file's age.
 $(DEPTHNET)/net.choice: FORCE
 	$(call replace_if_changed_by,cksum $(DEPTHNET_CONFIG))
 $(DEPTHNET)/depthnet.yaml: $(DEPTHNET_CONFIG) $(DEPTHNET)/net.choice $(DEPTHNET_SHARDS) | build
@@ -35,7 +35,7 @@ $(DEPTHNET)/depthnet.yaml: $(DEPTHNET_CONFIG) $(DEPTHNET)/net.choice $(DEPTHNET_
 	$(call depthnet_run,--config $<)
 $(DEPTHNET)/test/depthnet.yaml: $(DEPTHNET)/depthnet.yaml $(DEPTHNET_SHARDS)
 	$(call depthnet_run,--model $(DEPTHNET)/model_*.onnx)
-# On all cores: nothing else is to be done meanwhile.
+# The training uses all cores, so nothing else should run meanwhile.
 depthnet_run = OPENBLAS_NUM_THREADS=1 $(BIN)/depthnet --out $(@D) --threads $(JOBS) $(1) --shards $(DEPTHNET_LIST)
 
 depthnet: ## datasets: A network that reads depth, trained on a packed dataset and judged on its test objects; of grasps NET=outcome: CONFIG= [NET=default]

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# A Slurm of one machine, for trying and for tests: local_slurm.sh start|stop|slurmd FOLDER. Debian's munged, slurmctld and slurmd, run by
-# whoever calls, with state, keys and sockets in FOLDER, and no systemd, control groups or database. SLURM_CONF=FOLDER/slurm.conf leads to it.
-# slurmd: starts the node's daemon alone, after it was killed. CPUS and MEMORY_MB override what the machine has.
+# A Slurm of one machine, for trials and tests: local_slurm.sh start|stop|slurmd FOLDER. It runs Debian's munged,
+# slurmctld and slurmd as the calling user, with state, keys and sockets in FOLDER, and without systemd, control groups
+# or database. SLURM_CONF=FOLDER/slurm.conf selects it. slurmd: starts only the node's daemon, after it was killed. CPUS
+# and MEMORY_MB override the machine's values.
 set -euo pipefail
 export LC_ALL=C PATH=$PATH:/usr/sbin:/sbin
 do=$1

@@ -1,20 +1,21 @@
-# A made dataset as files to give away: make -f Makefile.data pack CONFIG=configs/datasets/mini.yaml [PACK=slim]
-# Its samples stand in $(DATASET_DIR)/plan/samples.csv; shards are written side by side, each by one process.
+# Packs a made dataset into files for publication: make -f Makefile.data pack CONFIG=configs/datasets/mini.yaml
+# [PACK=slim]
+# Its samples are listed in $(DATASET_DIR)/plan/samples.csv; shards are written in parallel, one process each.
 $(call uses,dataset/dataset)
 
 CARD   ?= default#     a file of configs/datasets/card
-FORMAT ?= webdataset#  of repack: a file of configs/datasets/repack
-CONFIG ?=#             the dataset's configuration, by which its folder is named; or instead
-DATASET_DIR ?= $(if $(strip $(CONFIG)),$(OUT)/datasets/$(basename $(notdir $(strip $(CONFIG)))))#  the folder
+FORMAT ?= webdataset#  repack: a file of configs/datasets/repack
+CONFIG ?=#             the dataset's configuration, after which its folder is named; alternatively
+DATASET_DIR ?= $(if $(strip $(CONFIG)),$(OUT)/datasets/$(basename $(notdir $(strip $(CONFIG)))))#  the dataset's folder
 pack_planned = $(filter-out none,$(shell $(BIN)/tacipc get '$(strip $(DATASET_DIR))/plan/dataset.yaml' outputs.pack --default full 2> /dev/null))
-PACK   ?= $(or $(pack_planned),full)# a file of configs/datasets/pack; as the dataset says
+PACK   ?= $(or $(pack_planned),full)# a file of configs/datasets/pack (default: from the dataset)
 $(foreach v,CARD FORMAT DATASET_DIR PACK,$(eval override $(v) := $(patsubst %/,%,$(strip $($(v))))))
 
 .PHONY: pack repack dataset-pack dataset-repack
 SHARDS_DIR := $(DATASET_DIR)/shards
 
-# Who packs or drops does it alone: to be said in the shell of a recipe, which holds the lock until it and what it started end. Only then make
-# looks at what there is to do.
+# Only one run packs or drops at a time: to be called in the shell of a recipe, which holds the lock until it and its
+# processes end. Only then does make look at the work to do.
 dataset_alone = { [ ! -d '$(DATASET_DIR)' ] || { exec 9> '$(DATASET_DIR)/.packing'; \
   flock -n 9 || { echo "$(1): waiting for another run that packs or drops" >&2; flock 9; }; }; }
 make_again = env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL $(MAKE) $(if $(findstring s,$(firstword -$(MAKEFLAGS))),-s) -f Makefile.data $(MAKEOVERRIDES) $(1)
@@ -32,17 +33,18 @@ repack: | build ## datasets: Packed shards in another layout: CONFIG= FORMAT=web
 endif
 
 ifneq ($(and $(DATASET_DIR),$(filter dataset-pack dataset-repack,$(MAKECMDGOALS))),)
-# PACK_SHARDS, and for each shard a file that changes when anything does that is packed into it: a sample made again packs its shard again.
+# PACK_SHARDS, and for each shard a file that changes if any of its packing inputs does: a sample that is made again
+# causes its shard to be packed again.
 ifneq ($(shell $(BIN)/survey pack-inputs '$(DATASET_DIR)' configs/datasets/pack/$(PACK).yaml && echo done),done)
   $(error pack: not possible)
 endif
 include $(SHARDS_DIR)/shards.mk
 
-# Another card is another dataset however old its file is.
+# A changed card counts as another dataset, regardless of the file's age.
 $(SHARDS_DIR)/card.choice: FORCE
 	@echo '$(CARD)' > $@.new-$$$$; cmp -s $@.new-$$$$ $@ && rm $@.new-$$$$ || mv $@.new-$$$$ $@
 
-# Beside the record, what it was packed from; without it (or older) that is not known.
+# Inputs of the packing, stored next to the record; without this file (or if it is older) they are unknown.
 $(PACK_SHARDS:%=$(SHARDS_DIR)/%/pack.yaml): $(SHARDS_DIR)/%/pack.yaml: $(SHARDS_DIR)/%.inputs | build
 	$(call run,pack,--config configs/datasets/pack/$(PACK).yaml --plan $(DATASET_DIR)/plan/samples.csv --dataset $(SHARDS_DIR)/dataset.yaml --shard $*)
 	@cp $< $(@D)/packed.inputs || rm -f $(@D)/packed.inputs

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# showcase.sh DATASET TACIPC DOCS: docs/showcase.md, a row per object and a column per sensor, with its pictures.
+# showcase.sh DATASET TACIPC DOCS: writes docs/showcase.md, a row per object and a column per sensor, with its pictures.
 # shellcheck disable=SC2016  # backquotes of the page
 set -euo pipefail
 dataset=$1 tacipc=$2 docs=$3
@@ -12,7 +12,7 @@ while IFS=$'\t' read -r folder sensor object; do
   [[ " ${sensors[*]} " == *" $sensor "* ]] || sensors+=("$sensor")
   [[ " ${objects[*]} " == *" $object "* ]] || objects+=("$object")
 done < <("$tacipc" table "$dataset/plan/samples.csv" --columns folder,sensor,object)
-# picture FOLDER NAME: a picture that dataset-report drew of a sample
+# picture FOLDER NAME: path of a picture of a sample, drawn by dataset-report
 picture() { echo "$dataset/report/pictures/${1##*/}/$2.jpg"; }
 {
   cat << PAGE

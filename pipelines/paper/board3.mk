@@ -1,8 +1,10 @@
-# The friction experiments of the paper: board3 pressed 0.5 mm into a 3 mm gel, then dragged by 1 mm or turned by 0.25 rad, and how
-# evenly the markers follow. MESH= another file of configs/gels, import_paper_3mm for the published gel (long); PRESS= another file of
-# configs/press (friction_every: every pair counts, as in the reference code; friction: no viscosity).
-# SHARED is a folder with data/tacipc_release (not part of this repository). ALSO= folders of the same motions by other simulators,
-# drawn beside ours (markers.csv, markers.npy, marker_displacement.npy, object_pose.npy, phase.npy).
+# The friction experiments of the paper: board3 is pressed 0.5 mm into a 3 mm gel, then moved by 1 mm or turned by 0.25
+# rad; the result is the smoothness of the markers' motion. MESH= selects another file of configs/gels: import_paper_3mm
+# is the published gel (long). PRESS= selects another file of configs/press: with friction_every every pair counts, as
+# in the reference code; friction has no viscosity.
+# SHARED is a folder with data/tacipc_release (not part of this repository). ALSO= names folders of the same motions by
+# other simulators, which the plots also show (markers.csv, markers.npy, marker_displacement.npy, object_pose.npy,
+# phase.npy).
 $(call uses,sample/sample sample/objects verification/verification)
 
 ALSO ?=#  runs of other simulators

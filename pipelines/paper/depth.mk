@@ -1,11 +1,13 @@
-# Depth from touch, the paper's third task: networks trained on images of three simulators, of the same objects in the same poses, each under the light that was
-# fitted on its own membranes of the same balls, read the photographs of sim2real: make -f Makefile.data depth-benchmark (docs/depth-results.md).
+# Depth from tactile images, the paper's third task: make -f Makefile.data depth-benchmark (docs/depth-results.md).
+# Networks are trained on images of three simulators, of the same objects in the same poses. Each simulator uses the
+# light that was fitted on its own membranes of the same balls. The networks are evaluated on the photographs of
+# sim2real.
 $(call uses,paper/sim2real paper/paper_real dataset/depthnet)
 
 DEPTH       := $(OUT)/depth
-DEPTH_POSES  ?= 20#         depth-benchmark: of each object
+DEPTH_POSES  ?= 20#         depth-benchmark: poses of each object
 DEPTH_SEEDS  ?= 1 2 3 4 5#  networks of each simulator
-DEPTH_EPOCHS ?= 15#         of their training
+DEPTH_EPOCHS ?= 15#         epochs of each training
 $(foreach v,DEPTH_POSES DEPTH_SEEDS DEPTH_EPOCHS,$(eval override $(v) := $(strip $($(v)))))
 
 DEPTH_PRINTED := cone cross_lines curved_surface cylinder cylinder_shell cylinder_side dot_in dots flat_slab hexagon line moon parallel_lines sphere2 triangle
@@ -13,14 +15,15 @@ DEPTH_BALLS   := 1.5 2 2.5 4 5 7# radius, mm
 DEPTH_METHODS := tacipc tacchi depth-based
 DEPTH_MADE    := $(DEPTH_PRINTED) $(DEPTH_BALLS:%=ball_%)
 
-# Networks are trained for the sensor of these photographs; CASES= are the photographs that they read, of the same sensor.
+# Networks are trained for the sensor of these photographs. CASES= selects the photographs for evaluation, of the same
+# sensor.
 DEPTH_CASES  := configs/studies/sim2real/gelsight_sim2real.yaml
 DEPTH_SENSOR := $(OUT)/sim2real/$(basename $(notdir $(DEPTH_CASES)))/calibrate/sensor.yaml
 DEPTH_DATA   := $(DEPTH)/datasets/depth
 packages_for_depth-benchmark := depthnet predict
 packages_for_depth-quick     := depthnet predict loaders
 
-# What cannot work is refused before hours of simulation; samples that fail are left out, if they are few.
+# Impossible settings are refused before hours of simulation; failed samples are left out if they are few.
 depth_lists = bash pipelines/paper/depth_lists.sh $(DEPTH) $(DEPTH_DATA) $(BIN)/tacipc
 .PHONY: depth-benchmark depth-objects depth-rivals depth-networks depth-quick
 depth-benchmark: ## studies: Networks trained on three simulators read depth from photographs [CASES=] (needs SHARED; hours); writes OUT/docs/depth-results.md
@@ -39,7 +42,7 @@ depth-quick: ## development: A small network on 48 images and on shuffled ones, 
 depth-quick: | build
 	bash tests/pipeline/depthnet_test.sh '$(CURDIR)' '$(abspath $(BUILD))'
 
-# The objects in one folder, prints with the rounded edges that those of the photographs have, and the dataset's file.
+# All objects in one folder, prints with the rounded edges of those on the photographs, and the dataset's file.
 define depth_ball
 $(DEPTH)/indenters/ball_$(1).yaml: FORCE
 	$$(call replace_if_changed,ball: {radius_mm: $(1)$$(comma) edge_mm: 0.25})
@@ -79,7 +82,7 @@ $(DEPTH)/depth-based/$(1)/baseline.yaml: $(DEPTH_DATA)/$(3)/press/press.yaml $(C
 	  --pose $(DEPTH_DATA)/$(3)/press/object_pose.npy)
 $(DEPTH)/depth-based/$(1)/render/render.yaml: $(DEPTH)/depth-based/$(1)/baseline.yaml $(SIM2REAL)/rival/calibrate/calibrate.yaml $(DEPTH)/render.yaml
 	$(call depth_render,$(DEPTH)/depth-based/$(1)/$(depth_last)/indentation.exr,$(SIM2REAL)/rival/calibrate)
-# A press that failed has no rivals.
+# A press that failed has no samples of the other simulators.
 $(DEPTH_DATA)/$(3)/press/press.yaml:
 	@echo "$$@: was not made" >&2; exit 1
 endef
@@ -89,7 +92,7 @@ depth-rivals: $(foreach r,$(DEPTH_ROWS),$(foreach m,tacchi depth-based,$(DEPTH)/
 endif
 
 ifneq ($(filter depth-networks,$(MAKECMDGOALS)),)
-# Folders of render by simulator and split, of the samples that every simulator has made.
+# Folders of render by simulator and split, for the samples that every simulator has made.
 $(DEPTH)/lists/made.txt: FORCE
 	@$(depth_lists) lists $(DEPTH_METHODS)
 # $(call depth_network,folder,simulator,changes of configs/depthnet/default.yaml[,4: only the first quarter of the training's list])
@@ -100,7 +103,8 @@ $(1)/depthnet.yaml: $(1)/network.yaml $(DEPTH)/lists/made.txt $(always) | build
 	  train=("$$$${train[@]:0:($$$${#train[@]} + $(or $(4),1) - 1) / $(or $(4),1)}"); mapfile -t val < $(DEPTH)/lists/$(2)-val.txt; \
 	$$(call run,depthnet,--config $$< --renders "$$$${train[@]}" --validation "$$$${val[@]}")
 endef
-# The networks of a method: its seeds; one of a quarter of the poses, seen four times as often, and of the control, whose pairs are shuffled.
+# Networks of a method, one per seed. Additional ones: `quarter`, trained on a quarter of the poses, seen four times as
+# often; `shuffled`, the control with shuffled pairs.
 DEPTH_BESIDE := quarter shuffled
 depth_seeds = $(if $(filter $(DEPTH_BESIDE) nothing,$(1)),1,$(DEPTH_SEEDS))
 $(foreach m,$(DEPTH_METHODS),$(foreach s,$(DEPTH_SEEDS),\
@@ -108,7 +112,8 @@ $(foreach m,$(DEPTH_METHODS),$(foreach s,$(DEPTH_SEEDS),\
 $(eval $(call depth_network,$(DEPTH)/networks/shuffled/1,tacipc,seed=1 schedule.epochs=$(DEPTH_EPOCHS) +shuffle_pairs=true))
 $(eval $(call depth_network,$(DEPTH)/networks/quarter/1,tacipc,seed=1 schedule.epochs=$(shell echo $$((4 * $(DEPTH_EPOCHS)))) schedule.warmup_epochs=4,4))
 
-# What they read: photographs, and our images of the same contacts. Two truths: our membrane, and the object's surface where it is in the gel.
+# Images for evaluation: photographs, and TacIPC's images of the same contacts. There are two references: TacIPC's
+# membrane, and the object's surface inside the gel.
 DEPTH_READ := $(DEPTH)/read/$(cases_name)
 $(DEPTH)/rest.exr: $(DEPTH)/lists/made.txt
 	cp "$$(head -n 1 $(DEPTH)/lists/tacipc-train.txt)/frame_0000/depth.exr" $@.new && mv $@.new $@
@@ -120,7 +125,7 @@ $(foreach o,$(CASES_OBJECTS),$(eval $(call depth_surface,$(o))))
 depth_truth_surface  := $(foreach o,$(CASES_OBJECTS),$(call cases_frames,$(o),$(DEPTH_READ)/surface/$(o),0,depth.exr))
 depth_truth_membrane := $(foreach o,$(CASES_OBJECTS),$(foreach i,$(CASES_IMAGES_$(o)),$(SIM2REAL)/ours/$(o)/depth/$(i).exr))
 depth_truths := $(CASES_OBJECTS:%=$(SIM2REAL)/ours/%/shade.yaml) $(CASES_OBJECTS:%=$(DEPTH_READ)/surface/%/baseline.yaml)
-# Photographs under the names of our images: an answer is named by its image, whatever the file was called.
+# Photographs under the names of TacIPC's images, because a prediction is named after its image.
 $(DEPTH_READ)/images/copied.txt: $(CASES_REAL)
 	mkdir -p $(@D)
 	$(foreach i,$(CASES_ALL),cp $(call cases_photograph,$(i)) $(@D)/$(i).png;)
@@ -137,7 +142,7 @@ $(DEPTH_READ)/$(1)/$(2)/predict.yaml: $(DEPTH)/networks/$(2)/depthnet.yaml $(DEP
 	  --rest $(DEPTH)/rest.exr --truth $(depth_truth_membrane))
 endef
 $(foreach i,photographs simulated,$(foreach m,$(DEPTH_METHODS) $(DEPTH_BESIDE),$(foreach s,$(call depth_seeds,$(m)),$(eval $(call depth_read,$(i),$(m)/$(s))))))
-# Who says that nothing is touched, anywhere.
+# Baseline `nothing`: predicts that nothing touches the gel.
 $(DEPTH_READ)/%/nothing/1/predict.yaml: $(DEPTH)/rest.exr $(depth_truths)
 	mkdir -p $(@D)/depth
 	for image in $(CASES_ALL); do cp $(DEPTH)/rest.exr $(@D)/depth/$$image.exr; done
@@ -164,7 +169,7 @@ $(eval $(call depth_table,photographs,membrane,Photographs against our membrane)
 $(eval $(call depth_table,photographs,surface,Photographs against the surface of the object))
 $(eval $(call depth_table,simulated,membrane,Our images of the same contacts against our membrane))
 
-# The page of the shipped photographs, with the sheet of one network of each simulator.
+# Page of the shipped photographs, with the sheet of one network of each simulator.
 depth-networks: $(DEPTH_TABLES:%=$(DEPTH_READ)/tables/%/tabulate.yaml)
 ifneq ($(and $(filter $(DEPTH_CASES),$(CASES)),$(wildcard docs/depth-results.md)),)
 	@$(call fill_docs,depth-results.md,$(foreach t,$(DEPTH_TABLES),$(t)=$(DEPTH_READ)/tables/$(t)/table.md))

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # depth_lists.sh DEPTH DATASET TACIPC NAME SIMULATOR…: lists the samples that all of these simulators have made.
-# DEPTH/NAME/<simulator>-<split>.txt are their folders of render; DEPTH/NAME/made.txt, written last and only if they or their records have changed,
-# names the samples.
+# DEPTH/NAME/<simulator>-<split>.txt lists their folders of render. DEPTH/NAME/made.txt names the samples; it is written
+# last and only if they or their records have changed.
 set -euo pipefail
 depth=$1 dataset=$2 tacipc=$3 lists=$1/$4
 shift 4
@@ -9,7 +9,8 @@ rm -rf "$lists.new"
 mkdir -p "$lists" "$lists.new"
 rows=$("$tacipc" table "$dataset/plan/samples.csv" --columns id,split,folder)
 
-# made FILE…: each is there, and none older than the one before it. (A stage that fails takes its own record away and leaves those made of it.)
+# made FILE…: true if each file exists and none is older than the previous one. (A stage that fails removes its own
+# record, but not later ones made from it.)
 made() {
   local before=
   for file in "$@"; do

@@ -1,7 +1,8 @@
-# Marker vectors measured in photographs against simulated ones: make -f Makefile.data fots [MARKERS=configs/studies/fots/fots_markers.yaml]
-# The file says which vectors (below SHARED), what is simulated and what is held; docs/fots.md has the table. ALSO= folders of the
-# same presses by another simulator (markers.npy, marker_displacement.npy, object_pose.npy, phase.npy in any folder below) add rows
-# (ALSO is declared in board3.mk).
+# Compares marker vectors measured in photographs with simulated ones: make -f Makefile.data fots
+# [MARKERS=configs/studies/fots/fots_markers.yaml]
+# The file selects the vectors (below SHARED), the simulated and the fixed values; docs/fots.md has the table. ALSO=
+# names folders of the same presses by another simulator (markers.npy, marker_displacement.npy, object_pose.npy,
+# phase.npy in any folder below), which add rows (ALSO is declared in board3.mk).
 $(call uses,paper/board3 paper/paper_markers)
 
 MARKERS ?= configs/studies/fots/fots_markers.yaml#  the benchmark
@@ -19,13 +20,13 @@ ifeq ($(wildcard $(SHARED)),)
   $(error SHARED: $(SHARED) does not exist; the measured vectors are looked for there)
 endif
 
-# Inputs of the stages: made from the one file first, then make restarts with its variables.
+# Inputs of the stages are made from the single file first, then make restarts with its variables.
 $(FOTS)/cases/cases.yaml: $(MARKERS) $(always) | build
 	$(call run,cases,--config $<)
 $(FOTS)/cases/cases.mk: $(FOTS)/cases/cases.yaml ;
 include $(FOTS)/cases/cases.mk
 
-# The ball, the gel and the press configuration of the base and of each variant, then a press to each depth.
+# Ball, gel and press configuration of the base and of each variant, then a press to each depth.
 define fots_variant
 $(FOTS)/runs/$(1)/indenter/indenter.yaml: $(FOTS)/cases/cases.yaml $(always) | build
 	$$(call run,indenter,--config $(FOTS)/cases/$(1)/indenter.yaml)
@@ -44,8 +45,9 @@ $(FOTS)/runs/$(1)/$(2)/press.yaml: $(FOTS)/runs/$(1)/indenter/indenter.yaml $(FO
 endef
 $(foreach v,$(MARKERS_VARIANTS),$(eval $(call fots_variant,$(v)))$(foreach d,$(MARKERS_DEPTHS),$(eval $(call fots_run,$(v),$(d)))))
 
-# FOTS' and Taxim's motion of markers on the way of the deepest of these presses. FOTS' factors as published, then fitted to these very vectors,
-# which no other row is: the most that its formulas can do here. Taxim's unit responses are those of this gel under a small ball.
+# Marker motion by FOTS and Taxim along the travel of the deepest of these presses. FOTS's factors are those published,
+# and others fitted to these very vectors, which no other row is: the best that its formulas can do here. Taxim's unit
+# responses are those of this gel under a small ball.
 FOTS_RIVALS := fots_published fots_fitted taxim_superposition
 FOTS_FITTED_KEYS := markers.press_per_mm2=1.26514 markers.shear_per_mm2=0.065174
 FOTS_DEEPEST := $(lastword $(MARKERS_DEPTHS))
@@ -73,11 +75,16 @@ $(FOTS)/fit/marker_fit.yaml: $(MARKERS) $(foreach v,$(MARKERS_VARIANTS),$(foreac
 	$(call run,marker_fit,--config $(MARKERS) --pressed $(SHARED)/$(MARKERS_PRESSED) --sheared $(SHARED)/$(MARKERS_SHEARED) \
 	  --runs $(foreach v,$(MARKERS_VARIANTS),$(MARKERS_DEPTHS:%=$(v)=$(FOTS)/runs/$(v)/%)) $(fots_rival_runs) $(foreach a,$(ALSO:%/=%),$(notdir $(a))=$(a)))
 
-# The same with rows of Tacchi, for pipelines/paper/paper_markers.mk. As published: its particles in a block as large as the gel, and its material,
-# for with the sensor's, which is stiffer, the published step is too long; then that material with a shorter step; a tenth of the density,
-# with the time step that keeps the Courant number; cells with eight particles instead of one for four cells; both, with a hundredth of the
-# density. With the true density: checked at half the speed in the shallowest press. Presses end when the front is as deep as asked; the ball
-# is then less deep. Keys given with FOTS_TACCHI_KEYS go last.
+# Additional rows of Tacchi, for pipelines/paper/paper_markers.mk:
+# - as published, with its particles in a block as large as the gel, and its material: for the sensor's stiffer material
+# the published step is too long;
+# - the sensor's material with a shorter step;
+# - a tenth of the density, with the time step that keeps the Courant number;
+# - cells with eight particles instead of one particle for four cells;
+# - both, with a hundredth of the density;
+# - the true density, checked at half the speed in the shallowest press.
+# Presses end when the front reaches the requested depth; the ball is then less deep. Keys given with FOTS_TACCHI_KEYS
+# come last.
 FOTS_TACCHI_KEYS ?=
 FOTS_TACCHI ?= tacchi_legacy tacchi_legacy_sensor_material tacchi_legacy_tenth_density tacchi_legacy_grid_0400um tacchi_legacy_grid_and_density tacchi_physical
 FOTS_BLOCK := gel.lattice=block +gel.counts=[127,105,22]
@@ -94,7 +101,7 @@ FOTS_KEYS_tacchi_legacy_grid_and_density := $(FOTS_KEYS_tacchi_legacy_grid_0400u
 FOTS_NUMERICS_tacchi_physical := $(RIVALS_PHYSICAL)
 FOTS_KEYS_tacchi_physical := gel.spacing_mm=0.25 grid.spacing_mm=0.5 \
   object.mass_ratio=1.0e+7 object.press_speed_mm_s=100 object.move_speed_mm_s=100 $(FOTS_TACCHI_KEYS)
-FOTS_CHECKED ?= $(firstword $(MARKERS_DEPTHS))# depths at which what is checked at half the speed is
+FOTS_CHECKED ?= $(firstword $(MARKERS_DEPTHS))# depths of runs that are checked at half the speed
 fots_unchecked = $(and $(filter tacchi_physical,$(1)),$(filter-out $(FOTS_CHECKED),$(2)),-half_speed)
 # $(call fots_tacchi_run,row,depth)
 fots_tacchi_run = $(call tacchi_run,$(FOTS)/runs/$(1)/$(2),name=$(1)_$(2) numerics=$(FOTS_NUMERICS_$(1)) \
@@ -136,7 +143,7 @@ fots-tacchi: $(FOTS)/fit_tacchi/marker_fit.yaml fots-tacchi-folders
 	  done; echo; done; } > $(RIVALS_MARKERS)/fots.md
 	@cat $(RIVALS_MARKERS)/fots.md
 
-# docs/fots.md has a place for the table of the shipped benchmark.
+# docs/fots.md has a mark for the table of the shipped benchmark.
 fots_name := $(basename $(notdir $(MARKERS)))
 fots-page: $(FOTS)/fit/marker_fit.yaml
 	@if grep -qsxF '<!-- $(fots_name) -->' docs/fots.md; then \

@@ -1,6 +1,7 @@
-# A sensor's mechanics from measured forces and marker vectors: make -f Makefile.data identify IDENTIFY=configs/studies/identify/gsmini_force.yaml
-# The file says what is known, measured (below SHARED) and simulated; docs/identify.md has the keys and results.
-IDENTIFY ?= configs/studies/identify/gsmini_force.yaml#  what identify fits
+# Identifies a sensor's mechanics from measured forces and marker vectors: make -f Makefile.data identify
+# IDENTIFY=configs/studies/identify/gsmini_force.yaml
+# The file lists the known, measured (below SHARED) and simulated data; docs/identify.md has the keys and results.
+IDENTIFY ?= configs/studies/identify/gsmini_force.yaml#  file of the identification
 override IDENTIFY := $(strip $(IDENTIFY))
 identify_name := $(basename $(notdir $(IDENTIFY)))
 IDENTIFIED := $(OUT)/identify/$(identify_name)
@@ -17,7 +18,7 @@ ifeq ($(wildcard $(SHARED)),)
   $(error SHARED: $(SHARED) does not exist; the measurements are looked for there)
 endif
 
-# Inputs of the stages: made from the one file first, then make restarts with its variables.
+# Inputs of the stages are made from the single file first, then make restarts with its variables.
 $(IDENTIFIED)/cases/cases.yaml: $(IDENTIFY) $(always) | build
 	@[ -x $(BIN)/identify ] || { echo "identify: not built for want of libceres-dev: make -f Makefile.data packages build GROUPS=identify" >&2; exit 2; }
 	$(call run,cases,--config $<)
@@ -29,12 +30,13 @@ ifneq ($(identify_missing),)
   $(error IDENTIFY: there is no $(identify_missing), which $(IDENTIFY) names)
 endif
 
-# Settings are rewritten only when they change: another prior presses nothing again.
+# Settings are only rewritten if they change: another prior does not repeat any press.
 $(foreach f,$(IDENTIFY_RUNS:%=motion_%.yaml) $(IDENTIFY_MEASUREMENTS:%=%/indenter.yaml),\
   $(eval $(IDENTIFIED)/cases/$(f): $(IDENTIFIED)/cases/cases.yaml ;)\
   $(eval $(call changed_config,$(IDENTIFIED)/settings/$(f),$(IDENTIFIED)/cases/$(f),)))
 $(eval $(call changed_config,$(IDENTIFIED)/settings/sensor.yaml,$(IDENTIFY_SENSOR),$(IDENTIFY_CHANGES)))
-# Presses are those of the relaxed gel on a rigid mount, and where friction has nodes with theirs: the fit adds the rest.
+# Presses use the relaxed gel on a rigid mount; if friction has nodes, the press uses the friction of its node. The fit
+# adds the other values.
 identify_unpressed := mount mount_src material.relaxation material.relaxation_src $(if $(IDENTIFY_FRICTION_$(IDENTIFY_MIDDLE)),gel.friction gel.friction_src)
 $(IDENTIFIED)/settings/rigid.yaml: $(IDENTIFIED)/settings/sensor.yaml | build
 	$(BIN)/tacipc set $< $$(for key in $(identify_unpressed); do \
@@ -84,7 +86,7 @@ $(IDENTIFIED)/fit/identify.yaml: $(IDENTIFY) $(IDENTIFIED)/settings/sensor.yaml 
 	$(call run,identify,--config $(IDENTIFY) --sensor $(IDENTIFIED)/settings/sensor.yaml \
 	  --measured $(foreach m,$(IDENTIFY_MEASUREMENTS),$(m)=$(SHARED)/$(IDENTIFY_FILE_$(m))) --runs $(foreach r,$(identify_runs),$(r)=$(IDENTIFIED)/runs/$(r)))
 
-# docs/identify.md has places for the shipped ones.
+# docs/identify.md has marks for the shipped ones.
 identify: ## own: A sensor's mechanics from measured forces and marker vectors: IDENTIFY=configs/studies/identify/gsmini_force.yaml (minutes)
 identify: $(IDENTIFIED)/fit/identify.yaml
 	@! grep -qsxF '<!-- $(identify_name) -->' docs/identify.md || [ $(IDENTIFY) != configs/studies/identify/$(identify_name).yaml ] \
@@ -93,7 +95,7 @@ identify: $(IDENTIFIED)/fit/identify.yaml
 	@echo; echo "Look at $(IDENTIFIED)/fit/*.svg; the sensor file is $(IDENTIFIED)/fit/sensor.yaml"
 endif
 
-# The blind card of a sensor: CASES= names what is fitted and what is compared; each part is made by its own goal.
+# Sensor data sheet ("blind card"): CASES= lists the fitted and the compared data; each part has a target of its own.
 .PHONY: blind-card
 packages_for_blind-card := identify
 ifneq ($(filter blind-card,$(MAKECMDGOALS)),)

@@ -1,5 +1,5 @@
-# The paper's benchmark, one page: make -f Makefile.data paper writes OUT/docs/paper-results.md, its pictures and, in OUT/paper, the page as HTML.
-# paper-quick is the same at reduced size, in OUT/paper-quick alone.
+# The paper's benchmark as one page: make -f Makefile.data paper writes OUT/docs/paper-results.md, its pictures and, in
+# OUT/paper, the page as HTML. paper-quick is the same at reduced size, only in OUT/paper-quick.
 $(call uses,sample/demo)
 
 PAPER_KIND ?= full
@@ -16,15 +16,16 @@ PAPER_FINE_full     := adaptive_0050um#     mesh of the reference
 PAPER_FINE_quick    := adaptive_0250um
 PAPER_OURS_full     := adaptive_0100um#     mesh of TacIPC
 PAPER_OURS_quick    := adaptive_0400um
-PAPER_LIGHT_full    := full_transport#       of the reference
+PAPER_LIGHT_full    := full_transport#       light of the reference
 PAPER_LIGHT_quick   := full_transport_quick
 PAPER_TABLES_full   := tables#              folder of the tables' configurations
 PAPER_TABLES_quick  := tables_quick
 $(foreach v,OBJECTS ABLATED MESHES FINE OURS LIGHT TABLES,$(eval PAPER_$(v) := $(strip $(PAPER_$(v)_$(PAPER_KIND)))))
 
-# What a run of this benchmark puts on its page: fragments and pictures in $(PAPER)/parts and $(PAPER)/markers, which it empties first, so that nothing
-# an earlier run left is passed off as its own. Beside them, the folders of everything that was run for them, whichever call ran it.
-# $(call paper_fragment,name,record of its table,yes if it has pictures): the goal paper-fragment-<name>
+# Parts of the page that a run of this benchmark makes: fragments and pictures in $(PAPER)/parts and $(PAPER)/markers.
+# The run empties these folders first, so that nothing from an earlier run appears as its own. They also list the
+# folders of all contributing runs, from whichever call. $(call paper_fragment,name,record of its table,yes if it has
+# pictures): the target paper-fragment-<name>
 define paper_fragment
 .PHONY: paper-fragment-$(1)
 paper-fragment-$(1): $(2)
@@ -35,7 +36,7 @@ endef
 # $(call paper_folders,name,folders)
 paper_folders = @mkdir -p $(PAPER)/parts; printf '%s\n' $(2) > $(PAPER)/parts/$(1).folders
 
-# Each part in a make of its own: some read files first that others make.
+# Each part runs in a make of its own, because some read files first that others make.
 .PHONY: paper paper-quick paper-parts paper-page
 paper_part = $(call make_again,--no-print-directory PAPER_KIND=$(PAPER_KIND) $(1))
 paper-parts: | build
@@ -58,7 +59,7 @@ paper-page:
 	$(if $(filter full,$(PAPER_KIND)),@rm -rf $(DOCS)/paper_results && mkdir -p $(DOCS) && cp -r $(PAPER)/paper_results $(PAPER)/paper-results.md $(DOCS))
 	@echo; echo "Look at $(PAPER)/paper-results.html$(if $(filter full,$(PAPER_KIND)), (docs-update copies the page into docs/))"
 
-# What fails leaves its place on the page empty, and the goal fails at its end.
+# A failed part leaves its position on the page empty, and the target fails at its end.
 paper_whole = @status=0; $(call paper_part,paper-parts PAPER_KIND=$(1)) || status=$$?; $(call paper_part,paper-page PAPER_KIND=$(1)) && exit $$status
 paper: ## studies: The paper's benchmark: image tables, markers, ablation, cost; writes OUT/docs/paper-results.md (hours; parts need SHARED)
 	$(call paper_whole,full)

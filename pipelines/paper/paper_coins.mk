@@ -1,10 +1,11 @@
-# The image table on embossed objects: all of configs/objects/patterns pressed 0.5 mm into mctac by three simulators, each through the same optics and through
-# the published ones, against a finer simulation with full light transport; and the ablation of gel meshes. Variables are in paper.mk.
+# The image table on embossed objects: all of configs/objects/patterns pressed 0.5 mm into mctac by three simulators.
+# Each is rendered through the same optics and through the published ones, and compared with a finer simulation with
+# full light transport. Also the ablation of gel meshes. Variables are in paper.mk.
 $(call uses,paper/paper)
 
 COINS_SENSOR := configs/sensors/mctac.yaml
 COINS_MOTION := configs/motions/press_0500um.yaml
-COINS_LAST   := frame_0005# the end of that motion
+COINS_LAST   := frame_0005# last frame of that motion
 coins_mesh   = --object $(OUT)/objects/$(1)/object.ply
 coins_object = $(coins_mesh) --object-config configs/objects/embossed.yaml
 
@@ -18,8 +19,8 @@ $(1)/render.yaml: $(2)/press.yaml $(COINS_SENSOR) configs/render/$(4).yaml $$(RE
 	$$(call run,render,--press $(2) --gel $(OUT)/gels/mctac-$(3)/gel.msh --sensor $(COINS_SENSOR) --config configs/render/$(4).yaml)
 endef
 
-# Tacchi as published ends when its gel is as deep as asked; here also when its object is, as in the other simulators, and with the other
-# published densities of its object's points (6 per mm2 is its default).
+# Tacchi as published ends when its gel reaches the requested depth. Additional variants end when the object does, as in
+# the other simulators, or have the other published densities of object points (6 per mm2 is its default).
 $(foreach d,60 6,$(eval $(call changed_config,$(PAPER)/objects/tacchi_$(d).config.yaml,configs/rivals/mpm/legacy_mctac.yaml,object.samples_per_mm2=$(d))))
 COINS_DEEP := $(PAPER)/objects/tacchi_deep.config.yaml
 $(eval $(call changed_config,$(COINS_DEEP),configs/rivals/mpm/legacy_mctac.yaml,motion.depth_of=object))
@@ -31,7 +32,8 @@ $(1)/render/render.yaml: $(1)/mpm/mpm.yaml $(COINS_SENSOR) configs/render/defaul
 	$$(call run,render,--shapes $(1)/mpm/$(COINS_LAST)/seen_indentation.exr --sensor $(COINS_SENSOR) --config configs/render/default.yaml)
 endef
 
-# Membranes of methods that know no gel, of each object at its last pose, along the camera's rays: TACTO has none, only the rigid object.
+# Membranes of methods without a gel, for each object at its last pose, along the camera's rays; TACTO has only the
+# rigid object.
 COINS_BLURRED := depth-based tacto taxim fots chen
 $(eval $(call changed_config,$(PAPER)/objects/depth-based.config.yaml,configs/rivals/baseline/height_map.yaml,))
 $(eval $(call changed_config,$(PAPER)/objects/tacto.config.yaml,configs/rivals/baseline/rigid.yaml,))
@@ -75,7 +77,8 @@ $(1)/older_kernel/legacy/baseline.yaml: $(1)/tacipc/render/render.yaml configs/r
 endef
 $(foreach o,$(PAPER_OBJECTS),$(eval $(call coins_rules,$(PAPER)/objects/$(o),$(o))))
 
-# Of the ablation's objects also with a fifth of the barrier's width: the barrier holds the reference's gel off the object, which deepens it by that much.
+# The ablation's objects are also pressed with a fifth of the barrier's width: the barrier keeps the reference's gel
+# away from the object, which deepens it by that gap.
 define coins_near
 $(PAPER)/objects/$(1)/near/press/press.yaml: $(OUT)/objects/$(1)/decimate.yaml $(OUT)/gels/mctac-$(PAPER_FINE)/tetmesh.yaml $(COINS_SENSOR) \
     $(COINS_MOTION) configs/press/small_gap.yaml $(always) | build
@@ -85,8 +88,8 @@ $(call coins_render,$(PAPER)/objects/$(1)/near/render,$(PAPER)/objects/$(1)/near
 endef
 $(foreach o,$(PAPER_ABLATED),$(eval $(call coins_near,$(o))))
 
-# The picture that each method makes of each object, under the object's name, so that all are compared alike: the method's folder below that
-# of the object, and its picture.
+# Pictures of each method under the objects' names, so that all methods are compared alike. Each entry is the method's
+# folder below that of the object, and its picture.
 COINS_IMAGES := $(PAPER)/objects-table/images
 COINS_FROM_fine                := fine/render $(COINS_LAST)/tactile.png
 COINS_FROM_noise               := noise/render $(COINS_LAST)/tactile.png
@@ -104,7 +107,7 @@ COINS_FROM_older_kernel_legacy := older_kernel/legacy $(COINS_LAST)/tactile.png
 COINS_METHODS := fine noise rest tacipc tacchi tacchi_deep tacchi_60 tacchi_6 $(COINS_BLURRED) \
   tacipc_legacy tacchi_legacy depth-based_legacy older_kernel_legacy
 COINS_SHAPES  := fine tacipc tacchi tacchi_deep tacchi_60 tacchi_6 $(COINS_BLURRED)# methods whose depth is compared
-# Methods compared with the reference's gel in the light that they have themselves.
+# Methods compared with the reference's gel in their own light.
 COINS_IN_ONE_LIGHT := tacipc tacchi tacchi_deep tacchi_60 tacchi_6 $(COINS_BLURRED) rest
 
 coins_record = $(firstword $(COINS_FROM_$(1)))/$(if $(filter render,$(notdir $(firstword $(COINS_FROM_$(1))))),render,baseline).yaml
@@ -149,12 +152,14 @@ $(PAPER)/objects-near/table/tabulate.yaml: configs/studies/paper/tables/near_dep
     $(always) | build
 	$(call run,tabulate,--config $< --samples $(foreach m,$(COINS_SHAPES),$(m)=$(PAPER)/objects-near/depth/$(m)/samples.csv))
 
-# The ablation: some of the objects on other meshes, against the finest, all with the same barrier, light and noise.
+# The ablation: some of the objects on other meshes, compared with the finest, all with the same barrier, light and
+# noise.
 define coins_mesh
 $(foreach o,$(PAPER_ABLATED),$(call coins_sample,$(PAPER)/ablation/$(1)/$(o),$(o),$(1))
 )
 endef
-# Where a press on a mesh was rendered, $(call coins_seen,mesh,object): of the finest it is one of those above.
+# Folder of the rendering of a press on a mesh, $(call coins_seen,mesh,object); for the finest mesh it is one of those
+# above.
 coins_seen = $(if $(filter $(PAPER_FINE),$(1)),$(PAPER)/objects/$(2)/noise/render,$(PAPER)/ablation/$(1)/$(2)/render)
 coins_depths = $(foreach o,$(PAPER_ABLATED),$(call coins_seen,$(1),$(o))/$(COINS_LAST)/depth.exr)
 define coins_mesh_images
@@ -186,7 +191,7 @@ $(PAPER)/ablation/images/tabulate.yaml: configs/studies/paper/$(PAPER_TABLES)/me
 	$(call run,tabulate,--config $< --samples $(foreach m,$(PAPER_MESHES),$(m)=$(PAPER)/ablation/metrics/$(m)/samples.csv) \
 	  --pictures $(foreach m,$(PAPER_FINE) $(PAPER_MESHES),$(PAPER_ABLATED:%=$(m)=$(PAPER)/ablation/$(m)/images/%.png)))
 
-# What the image table cost.
+# Cost of the image table.
 coins_costs = $(foreach o,$(PAPER_OBJECTS),$(OUT)/emboss/$(o)/emboss.timings.yaml $(OUT)/objects/$(o)/decimate.timings.yaml \
   $(addprefix $(PAPER)/objects/$(o)/,tacipc/press/press.timings.yaml tacipc/render/render.timings.yaml \
   tacchi/mpm/mpm.timings.yaml tacchi/render/render.timings.yaml \

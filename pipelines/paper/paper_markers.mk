@@ -1,14 +1,15 @@
-# The marker part of the paper's benchmark: where TacIPC and Tacchi take the markers, under board3 dragged and turned, and against
-# vectors measured in photographs (FOTS). Leaves fragments of a page and their pictures in $(OUT)/paper/markers (of paper-quick in
-# $(OUT)/paper-quick/markers): board3.md, fots.md, paper_results/*.svg. Needs SHARED (data/tacipc_release, data/fots_markers); without it the fragments say so.
+# The marker part of the paper's benchmark: marker displacements by TacIPC and Tacchi, under board3 moved sideways and
+# turned, and compared with vectors measured in photographs (FOTS). It writes fragments of a page and their pictures to
+# $(OUT)/paper/markers (for paper-quick to $(OUT)/paper-quick/markers): board3.md, fots.md, paper_results/*.svg. It
+# needs SHARED (data/tacipc_release, data/fots_markers); without it the fragments state that.
 $(call uses,paper/paper paper/board3)
 
 RIVALS_MARKERS := $(PAPER)/markers
 RIVALS_RUNS := $(OUT)/paper/marker_runs
 
-# $(call tacchi_run,folder,key=value …,changed keys of the numerics) with the keys name, numerics (of configs/rivals/mpm), sensor, motion, object
-# (the record beside its object.ply) and object_yaml. Only markers are looked at: no height maps. A run that its half-speed check refuses is a row
-# that says so.
+# $(call tacchi_run,folder,key=value …,changed keys of the numerics) with the keys name, numerics (of
+# configs/rivals/mpm), sensor, motion, object (the record next to its object.ply) and object_yaml. Only markers are
+# used: no height maps. A run that fails its half-speed check gives a row that states this.
 define tacchi_run
 $(call fields,tacchi,name numerics sensor motion object object_yaml,$(2))
 $(call changed_config,$(1).config.yaml,configs/rivals/mpm/$(tacchi_numerics).yaml,pixels=none $(3))
@@ -17,15 +18,16 @@ $(1)/mpm.yaml: $(1).config.yaml $(tacchi_sensor) $(tacchi_motion) $(tacchi_objec
 	  --object $(dir $(tacchi_object))object.ply --object-config $(tacchi_object_yaml))
 endef
 
-# How Tacchi runs: its numerics on the gel of the sensor, and with the true density on a coarse grid, checked at half the speed. Nodes at the
-# rim of what the object reaches feel little of its mass, and gel creeps there, the more the slower it is dragged: 1e5 times a particle's mass is not
-# enough (docs/mpm.md). The rim of board3 may turn faster, as its contact is a third as far from the axis.
+# Configurations of Tacchi: its numerics on the sensor's gel, and with the true density on a coarse grid, checked at
+# half the speed. Nodes at the rim of the object's reach get little of its mass, and the gel creeps there, more with
+# slower motion: 1e5 times a particle's mass is not enough (docs/mpm.md). The rim of board3 may turn faster, because its
+# contact is a third as far from the axis.
 RIVALS_LEGACY := legacy_mctac
 RIVALS_PHYSICAL := coarse_checked
 RIVALS_PHYSICAL_KEYS_shear := object.mass_ratio=1.0e+7 object.press_speed_mm_s=75 object.move_speed_mm_s=75
 RIVALS_PHYSICAL_KEYS_twist := object.mass_ratio=1.0e+7 object.press_speed_mm_s=75 object.move_speed_mm_s=141
 
-# board3. The press runs are those of the goal board3, on our own gel and on the published one.
+# board3. The press runs are those of the target board3, on TacIPC's own gel and on the published one.
 RIVALS_BOARD3 := $(RIVALS_RUNS)/board3
 RIVALS_MESHES := focused_0200um import_paper_3mm
 rivals_press = $(BOARD3)/$(1)-friction_viscous/board3_$(2)/press
@@ -38,8 +40,8 @@ board3_tacchi = $(call tacchi_run,$(RIVALS_BOARD3)/$(1)/$(2),name=$(1) numerics=
 $(foreach m,shear twist,$(eval $(call board3_tacchi,tacchi_legacy,$(m),$(RIVALS_LEGACY)))\
   $(eval $(call board3_tacchi,tacchi_physical,$(m),$(RIVALS_PHYSICAL),$(RIVALS_PHYSICAL_KEYS_$(m)))))
 
-# One value changed at a time, in the shear. Of Tacchi's, as published: name and keys. The true density takes the time step that keeps the
-# Courant number (0.1 ms / sqrt(1e6 / 1010)).
+# One value changed at a time, in the shear, from Tacchi's published ones: name and keys. The true density gets the time
+# step that keeps the Courant number (0.1 ms / sqrt(1e6 / 1010)).
 RIVALS_FACTORS := points_6 points_60 within_100um light_object drag_20 depth_of_object grid_0400um true_density glued_nodes published_material
 RIVALS_KEYS_points_6 := object.samples_per_mm2=6
 RIVALS_KEYS_points_60 := object.samples_per_mm2=60
@@ -52,7 +54,7 @@ RIVALS_KEYS_true_density := material.density_kg_m3=1010 time.step_s=3.178e-6
 RIVALS_KEYS_glued_nodes := gel.glued=nodes -gel.fixed_layers
 RIVALS_KEYS_published_material := +material.youngs_modulus_pa=1.45e+5 +material.poissons_ratio=0.45
 $(foreach f,$(RIVALS_FACTORS),$(eval $(call board3_tacchi,$(f),shear,$(RIVALS_LEGACY),$(RIVALS_KEYS_$(f)))))
-# Of TacIPC's: so much friction that nothing slips.
+# One value of TacIPC changed: enough friction to prevent any slip.
 RIVALS_FRICTIONS := 5
 $(foreach f,$(RIVALS_FRICTIONS),\
   $(eval $(call changed_config,$(RIVALS_BOARD3)/friction_$(f).config.yaml,configs/press/friction_viscous.yaml,friction.coefficient=$(f))) \
@@ -62,7 +64,7 @@ RIVALS_BOARD3_RUNS := $(foreach m,$(RIVALS_MESHES),$(foreach s,shear twist,$(cal
   $(foreach t,tacchi_legacy tacchi_physical,$(foreach s,shear twist,$(RIVALS_BOARD3)/$(t)/$(s)))
 RIVALS_BOARD3_FACTORS := $(RIVALS_FRICTIONS:%=$(RIVALS_BOARD3)/friction_%/press) $(RIVALS_FACTORS:%=$(RIVALS_BOARD3)/%/shear)
 
-# The same with a ball, coarse and short.
+# Quick variant with a ball, coarse and short.
 RIVALS_QUICK := $(RIVALS_RUNS)/quick
 $(RIVALS_QUICK)/ball/indenter.yaml: configs/studies/paper/markers/quick_ball.yaml $(always) | build
 	$(call run,indenter,--config $<)
@@ -97,7 +99,8 @@ paper-board3-fragment: paper-board3-folders
 paper-quick-fragment: paper-quick-folders
 paper-board3-fragment: $(if $(wildcard $(BOARD3_OBJECT)),$(RIVALS_RUNS)/pages/board3/compare_simulators.yaml)
 paper-quick-fragment: $(RIVALS_RUNS)/pages/quick/compare_simulators.yaml
-# $(call put_fragment,page,here if there is such a file): the fragment and its pictures, or why there are none
+# $(call put_fragment,page,here if there is such a file): copies the fragment and its pictures, or writes why there are
+# none
 put_fragment = @mkdir -p $(RIVALS_MARKERS)/paper_results; \
   if [ -e $(2) ]; then cp $(RIVALS_RUNS)/pages/$(1)/$(1).md $(RIVALS_MARKERS)/board3.md && cp $(RIVALS_RUNS)/pages/$(1)/*.csv $(RIVALS_MARKERS)/ && \
     cp $(RIVALS_RUNS)/pages/$(1)/paper_results/*.svg $(RIVALS_MARKERS)/paper_results/; \
@@ -107,7 +110,8 @@ paper-board3-fragment:
 paper-quick-fragment:
 	$(call put_fragment,quick,configs/studies/paper/markers/quick.yaml)
 
-# Marker vectors of FOTS: rules of pipelines/paper/fots.mk with Tacchi's rows, in a make of its own, as they are made from the benchmark's file.
+# Marker vectors of FOTS: rules of pipelines/paper/fots.mk with Tacchi's rows. They run in a make of their own, because
+# they are made from the benchmark's file.
 rivals_fots = @if [ -e $(SHARED)/data/fots_markers ]; then $(MAKE) -f Makefile.data --no-print-directory fots-tacchi MARKERS=$(1) $(2); \
   else mkdir -p $(RIVALS_MARKERS); echo "Not run: there is no fots_markers below SHARED." > $(RIVALS_MARKERS)/fots.md; fi
 .PHONY: paper-fots-fragment paper-quick-fots-fragment

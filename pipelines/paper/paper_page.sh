@@ -1,5 +1,6 @@
 #!/bin/bash
-# paper_page.sh TEMPLATE FOLDER NAME=FRAGMENT...: the template filled (pipelines/base/fill_page.sh) as FOLDER/paper-results.md and paper-results.html.
+# paper_page.sh TEMPLATE FOLDER NAME=FRAGMENT...: fills the template (pipelines/base/fill_page.sh), and writes
+# FOLDER/paper-results.md and paper-results.html.
 set -euo pipefail
 template=$1 folder=$2
 shift 2

@@ -1,6 +1,6 @@
-# Table I (a) of the paper on photographs: our images, Tacchi's and the depth-based method's, each under light fitted to the
-# same balls on its own membranes, then all with the optics that the rivals were published with. What sim2real.mk makes is
-# used as it is; docs/sim2real.md has the protocol.
+# Table I (a) of the paper on photographs: images of TacIPC, Tacchi and the depth-based method, each under light fitted
+# to the same balls on its own membranes; then all with the published optics of the other simulators. Results of
+# sim2real.mk are used as they are; docs/sim2real.md has the protocol.
 $(call uses,paper/sim2real paper/paper paper/rivals)
 
 .PHONY: paper-real
@@ -14,20 +14,21 @@ endif
 $(foreach f,$(PAPER_TABLE) $(addprefix $(PAPER_CONFIGS)/,mpm.yaml legacy_tacchi.yaml legacy_gomes_2021.yaml legacy_exponential_13.yaml),\
   $(if $(wildcard $(f)),,$(error paper-real: $(f) does not exist)))
 
-# Tacchi with each of its published densities of points (6 per mm2 is its default), and with the criterion of its program for images:
-# all under our light, so that only membranes differ; the densest and the sparsest also under light of their own.
+# Tacchi with each of its published densities of points (6 per mm2 is its default), and with the criterion of its
+# program for images. All are rendered under TacIPC's light, so that only membranes differ; the densest and the sparsest
+# also under light of their own.
 PAPER_TACCHI_LIT := tacchi tacchi-6
 PAPER_TACCHI     := $(PAPER_TACCHI_LIT) tacchi-60 tacchi-100um tacchi-image
 PAPER_TACCHI_KEYS_tacchi-60    := object.samples_per_mm2=60
 PAPER_TACCHI_KEYS_tacchi-6     := object.samples_per_mm2=6
 PAPER_TACCHI_KEYS_tacchi-100um := motion.frame_criterion=within_100um
 PAPER_TACCHI_KEYS_tacchi-image := object.samples_per_mm2=6 motion.frame_criterion=within_100um
-PAPER_TACCHI_KEYS_quick := gel.spacing_mm=0.4 grid.spacing_mm=0.4 time.step_s=1.0e-4#  of paper-quick: a tenth of the time
+PAPER_TACCHI_KEYS_quick := gel.spacing_mm=0.4 grid.spacing_mm=0.4 time.step_s=1.0e-4#  paper-quick: a tenth of the time
 $(foreach t,$(PAPER_TACCHI),$(eval $(call changed_config,$(PAPER_REAL)/$(t)/numerics.yaml,$(PAPER_CONFIGS)/mpm.yaml,\
   $(PAPER_TACCHI_KEYS_$(t)) $(PAPER_TACCHI_KEYS_$(PAPER_KIND)))))
 
-# Its gel under the balls that calibrate, each at the place and depth that our calibration found, and under the objects
-# at ours. $(call paper_mpm,which Tacchi,balls/ball_0000 or objects/name,indenter folder)
+# Tacchi's gel under the balls that calibrate, each at the position and depth that TacIPC's calibration found, and under
+# the objects at TacIPC's positions. $(call paper_mpm,which Tacchi,balls/ball_0000 or objects/name,indenter folder)
 define paper_mpm
 $(PAPER_REAL)/$(1)/$(2)/mpm.yaml: $(PAPER_REAL)/motions/$(2)/motion.yaml $(3)/indenter.yaml $(PAPER_REAL)/$(1)/numerics.yaml $(CASES_SENSOR) $(always) | build
 	$$(call run,mpm,--name $(notdir $(2)) --config $(PAPER_REAL)/$(1)/numerics.yaml --sensor $(CASES_SENSOR) --sample $(PAPER_REAL)/motions/$(2)/motion.yaml \
@@ -88,7 +89,7 @@ $(call paper_legacy,legacy-exponential,$(1),exponential_13,$(SIM2REAL)/ours/$(1)
 endef
 $(foreach o,$(CASES_OBJECTS),$(eval $(call paper_objects,$(o))))
 
-# All of them scored as ours are.
+# All methods are evaluated like TacIPC.
 PAPER_METHODS := $(PAPER_TACCHI_LIT) $(PAPER_TACCHI:%=%-our-light) depth-based-our-light legacy-ours legacy-tacchi legacy-depth-based legacy-exponential
 paper_images = $(foreach o,$(CASES_OBJECTS),$(foreach i,$(CASES_IMAGES_$(o)),$(PAPER_REAL)/simulated/$(1)/$(o)/$(i).png))
 $(foreach m,$(PAPER_METHODS),$(eval $(PAPER_REAL)/metrics/$(m)/metrics.yaml: $(foreach o,$(CASES_OBJECTS),$(PAPER_REAL)/simulated/$(m)/$(o)/shade.yaml)))
@@ -100,7 +101,7 @@ PAPER_RIVALS := $(filter-out $(PAPER_METHODS) ours depth-based background,$(call
 PAPER_SCORES := $(foreach m,ours depth-based background,$(SIM2REAL)/metrics/$(m)/metrics.yaml) \
   $(foreach m,$(PAPER_METHODS),$(PAPER_REAL)/metrics/$(m)/metrics.yaml) \
   $(foreach m,$(PAPER_RIVALS),$(RIVALS)/metrics/$(m)/metrics.yaml)
-# What an image costs by these rows, with Tacchi's own presses of the same objects.
+# Cost of an image for these rows, with Tacchi's own presses of the same objects.
 paper_presses = $(foreach o,$(CASES_OBJECTS),$(PAPER_REAL)/$(1)/objects/$(o))
 $(PAPER_REAL)/speed/bench_rivals.yaml: $(rivals_timed) $(foreach t,$(PAPER_TACCHI_LIT),$(addsuffix /mpm.yaml,$(call paper_presses,$(t)))) \
     | $(PAPER_SCORES) build-bench-rivals
@@ -122,10 +123,10 @@ paper-real: $(PAPER_REAL)/tabulate.yaml $(if $(RIVALS_TABLE),rivals)
 	@$(if $(PAPER_MORE),$(call make_again,REBUILD=no CASES=$(PAPER_MORE) rivals))
 	@echo; echo "Look at $(PAPER_REAL)/table.md and $(PAPER_REAL)/paper_results"
 
-# Beside the shipped photographs those whose depths are unknown: without Tacchi, whose runs need them.
+# Additional photographs with unknown depths: without Tacchi, whose runs need the depths.
 PAPER_MORE := $(if $(and $(filter gelsight_sim2real,$(cases_name)),$(wildcard $(SHARED)/data/gsmini_balls)),configs/studies/sim2real/gsmini_balls.yaml)
 
-# On the page of the paper (paper.mk).
+# Part of the paper's page (paper.mk).
 $(eval $(call paper_fragment,real,$(PAPER_REAL)/tabulate.yaml,yes))
 paper-fragment-real: paper-real-folders
 .PHONY: paper-real-folders

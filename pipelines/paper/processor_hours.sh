@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What all runs in some folders took together, and on which processor: processor_hours.sh BIN LIST-OF-FOLDERS …
+# Prints the total time of all runs in some folders, and the processor: processor_hours.sh BIN LIST-OF-FOLDERS …
 set -euo pipefail
 bin=$1
 shift

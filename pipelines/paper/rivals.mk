@@ -1,6 +1,7 @@
-# TACTO, Taxim, FOTS and constants published for this very sensor on the photographs of sim2real: make -f Makefile.data rivals [CASES=…].
-# Each has its light from the photographs that calibrate ours: balls, and known objects where the file names them; rows `-balls` from balls alone.
-# $(basename CASES)/rivals.yaml says which rows are made; docs/sim2real.md has the protocol.
+# TACTO, Taxim, FOTS and constants published for this very sensor on the photographs of sim2real: make -f Makefile.data
+# rivals [CASES=…].
+# The light of each is fitted to the photographs that calibrate TacIPC: balls, and known objects if the file names them;
+# rows `-balls` use only balls. $(basename CASES)/rivals.yaml selects the rows; docs/sim2real.md has the protocol.
 $(call uses,paper/sim2real paper/paper)
 
 .PHONY: rivals build-bench-rivals
@@ -14,7 +15,8 @@ ifeq ($(or $(RIVALS_TABLE),$(filter-out rivals,$(MAKECMDGOALS))),)
   $(error rivals: $(RIVALS_CONFIGS)/rivals.yaml does not exist)
 endif
 
-# Known objects as their lights see them, where our fit has put them: rigid, straight from above, and along the camera's rays.
+# Known objects for fitting the lights, at the positions of TacIPC's fit: rigid, from straight above, and along the
+# camera's rays.
 $(eval $(call changed_config,$(RIVALS)/rigid/parallel.yaml,configs/rivals/baseline/rigid.yaml,+rays=parallel))
 $(eval $(call changed_config,$(RIVALS)/rigid/refracted.yaml,configs/rivals/baseline/rigid.yaml,))
 define rivals_rigid
@@ -24,7 +26,8 @@ endef
 $(foreach r,parallel refracted,$(foreach o,$(CASES_KNOWN),$(eval $(call rivals_rigid,$(r),$(o)))))
 rivals_rays = $(if $(filter tacto,$(1)),refracted,parallel)
 
-# Their lights. Circles that are not the contact's rim are no labels for them: then the contacts are those of our fit.
+# Lights of the other simulators. Circles that are not the contact's rim cannot serve as labels; then the contacts are
+# those of TacIPC's fit.
 rivals_balls := $(if $(CASES_TABLE),--balls $(SIM2REAL)/calibrate/balls.csv)
 $(foreach f,taxim_released taxim_pooled,$(eval $(call changed_config,$(RIVALS)/fits/$(f).yaml,configs/rivals/calibrate/$(f).yaml,)))
 $(foreach s,$(RIVALS_SEEDS),$(eval $(call changed_config,$(RIVALS)/fits/fots_$(s).yaml,configs/rivals/calibrate/fots.yaml,seed=$(s))))
@@ -39,7 +42,8 @@ $(RIVALS)/calibrate/$(1)/calibrate.yaml: $(RIVALS)/fits/$(1).yaml \
 	  $(if $(CASES_KNOWN),--shapes $(foreach o,$(CASES_KNOWN),$(RIVALS)/rigid/$(call rivals_rays,$(1))/$(o)/frame_$$(call known_frame,$(o),-1)/indentation.exr)))
 endef
 $(foreach f,taxim_released taxim_pooled tacto $(RIVALS_SEEDS:%=fots_%),$(eval $(call rivals_fit,$(f))))
-# From balls alone, where known objects calibrate too; the depth-based method's balls are where the fit with the objects has put them.
+# Lights from balls alone, if known objects also calibrate; the depth-based method's balls are at the positions of the
+# fit with the objects.
 ifneq ($(CASES_KNOWN),)
 $(foreach f,taxim_released taxim_pooled tacto $(RIVALS_SEEDS:%=fots_%),$(RIVALS)/calibrate_balls/$(f)/calibrate.yaml): \
   $(RIVALS)/calibrate_balls/%/calibrate.yaml: $(RIVALS)/fits/%.yaml $(CASES_CALIBRATE) $(CASES_SENSOR) $(always) | build
@@ -50,7 +54,8 @@ $(RIVALS)/calibrate_balls/depth-based/calibrate.yaml: $(SIM2REAL)/rival/balls/ba
 	$(call run,calibrate,$(calibration_balls) --shapes $(SIM2REAL)/rival/balls/frame_*/indentation.exr)
 endif
 
-# Our light and that of the depth-based method without their last blur: $(call rival_sharp_light,name,folder of calibrate)
+# Lights of TacIPC and of the depth-based method without their last blur: $(call rival_sharp_light,name,folder of
+# calibrate)
 define rival_sharp_light
 $(RIVALS)/sharp/$(1).yaml: $(2)/calibrate.yaml | build
 	mkdir -p $$(@D)
@@ -68,7 +73,8 @@ RIVAL_RECORD_$(1) := $(5)
 $(call changed_config,$(RIVALS)/configs/$(1).yaml,$(if $(findstring /,$(2)),$(2),configs/rivals/baseline/$(2).yaml),$(3))
 endef
 rival_blurred = +shading.final_blur_px=$(RIVALS_BLUR)
-# $(call rival_rows,method,configuration,light's file below a folder of calibrate): from all photographs, at its own place, without blur, from balls alone
+# $(call rival_rows,method,configuration,light's file below a folder of calibrate): rows from all photographs, at its
+# own position, without blur, and from balls alone
 define rival_rows
 $(call rival,$(1),$(2),$(rival_blurred),$(RIVALS)/calibrate/$(3),$(dir $(RIVALS)/calibrate/$(3))calibrate.yaml)
 $(call rival,$(1)-own,$(2),$(rival_blurred),$(RIVALS)/calibrate/$(3),$(dir $(RIVALS)/calibrate/$(3))calibrate.yaml)
@@ -79,20 +85,20 @@ $(eval $(call rival_rows,tacto,tacto,tacto/light.yaml))
 $(eval $(call rival_rows,taxim-released,taxim,taxim_released/light.npy))
 $(eval $(call rival_rows,taxim,taxim,taxim_pooled/light.npy))
 $(foreach s,$(RIVALS_SEEDS),$(eval $(call rival_rows,fots$(filter-out 1,$(s)),fots,fots_$(s)/light.npy)))
-# Constants as published.
+# Published constants.
 $(foreach v,own sharp,$(eval $(call rival,chen-$(v),chen_2022,$(if $(filter own,$(v)),$(rival_blurred)),,)))
 $(eval $(call rival,chen,chen_2022,$(rival_blurred),,))
 $(eval $(call rival,tacto-pure,tacto,$(rival_blurred),$(RIVALS_CONFIGS)/tacto_lamps.yaml,$(RIVALS_CONFIGS)/tacto_lamps.yaml))
 $(eval $(call rival,tacto-pure-sharp,tacto,,$(RIVALS_CONFIGS)/tacto_lamps.yaml,$(RIVALS_CONFIGS)/tacto_lamps.yaml))
 $(eval $(call rival,tacto-noise,tacto,+shading.noise_codes=7,$(RIVALS_CONFIGS)/tacto_lamps.yaml,$(RIVALS_CONFIGS)/tacto_lamps.yaml))
-# The depth-based method, whose light is made as ours; sim2real.mk has its first row.
+# The depth-based method, whose light is fitted like TacIPC's; sim2real.mk has its first row.
 $(eval $(call rival,depth-based,$(CASES_BASELINE),+shading.model=light_field,$(SIM2REAL)/rival/calibrate/light.yaml,$(SIM2REAL)/rival/calibrate/calibrate.yaml))
 $(eval $(call rival,depth-based-own,$(CASES_BASELINE),+shading.model=light_field,\
   $(SIM2REAL)/rival/calibrate/light.yaml,$(SIM2REAL)/rival/calibrate/calibrate.yaml))
 $(eval $(call rival,depth-based-sharp,$(CASES_BASELINE),+shading.model=light_field,$(RIVALS)/sharp/depth-based.yaml,$(RIVALS)/sharp/depth-based.yaml))
 $(eval $(call rival,depth-based-balls,$(CASES_BASELINE),+shading.model=light_field,\
   $(RIVALS)/calibrate_balls/depth-based/light.yaml,$(RIVALS)/calibrate_balls/depth-based/calibrate.yaml))
-# The light of one on the membranes of another: what is light, and what membrane.
+# Light of one simulator on the membranes of another, which separates the effects of light and membrane.
 $(foreach m,taxim fots,$(eval $(call rival,ours-on-$(m),$(m),shading.model=light_field,$(SIM2REAL)/calibrate/light.yaml,$(SIM2REAL)/calibrate/calibrate.yaml)))
 $(eval $(call rival,ours-on-tacto,rigid,+shading.model=light_field,$(SIM2REAL)/calibrate/light.yaml,$(SIM2REAL)/calibrate/calibrate.yaml))
 $(eval $(call rival,fots-on-taxim,taxim,shading.model=network $(rival_blurred),$(RIVALS)/calibrate/fots_1/light.npy,$(RIVALS)/calibrate/fots_1/calibrate.yaml))
@@ -100,7 +106,8 @@ $(eval $(call rival,fots-on-ours,given,shading.model=network $(rival_blurred),$(
 $(eval $(call rival,taxim-on-ours,given,shading.model=table $(rival_blurred),\
   $(RIVALS)/calibrate/taxim_pooled/light.npy,$(RIVALS)/calibrate/taxim_pooled/calibrate.yaml))
 
-# What an object's images are made of: it where our fit has put it, or where a fit with this method puts it, or our membranes of it.
+# Sources of an object's images: the object at the position of TacIPC's fit, the object at the position of a fit with
+# this method, or TacIPC's membranes.
 rival_shape_ours = $(foreach i,$(CASES_IMAGES_$(1)),$(SIM2REAL)/ours/$(1)/depth/$(i).exr)
 rival_shape_own = --object $(call cases_press,$(1))/indenter/object.ply --pose $(call cases_press,$(1))/press/object_pose.npy \
   --places $(SIM2REAL)/cases/objects/$(1)/shade.yaml --photograph $(call cases_photograph,$(CASES_FIT_$(1)))
@@ -119,8 +126,8 @@ $(RIVALS)/simulated/$(1)/$(2)/shade.yaml: $(RIVALS)/runs/$(1)/$(2)/baseline.yaml
 endef
 $(foreach m,$(RIVAL_METHODS),$(foreach o,$(CASES_OBJECTS),$(eval $(call rival_images,$(m),$(o)))))
 
-# Our press at the place that was found with our light: without the slopes of its print, without the last blur, under the light of balls alone.
-# $(call rival_shaded,method,object,light's file,its record)
+# TacIPC's press at the position found with its light: without the slopes of its print, without the last blur, under the
+# light of balls alone. $(call rival_shaded,method,object,light's file,its record)
 define rival_shaded
 $(RIVALS)/simulated/$(1)/$(2)/shade.yaml: $(4) $(RIVALS)/places/$(2).yaml $(always) | build
 	$$(call run,shade,--sensor $(CASES_SENSOR) --background $(cases_background) --light $(3) --config $(RIVALS)/places/$(2).yaml \
@@ -138,7 +145,7 @@ $(call rival_shaded,ours-balls,$(1),$(RIVALS)/calibrate_balls/ours/light.yaml,$(
 endef
 $(foreach o,$(CASES_OBJECTS),$(eval $(call rival_object,$(o))))
 
-# Scored as ours are; of FOTS' network every seed is a run of its row.
+# Evaluated like TacIPC; every seed of FOTS's network is a run of its row.
 rivals_images = $(foreach o,$(CASES_OBJECTS),$(foreach i,$(CASES_IMAGES_$(o)),$(RIVALS)/simulated/$(1)/$(o)/$(i).png))
 $(foreach m,$(RIVAL_METHODS) ours-light ours-sharp ours-balls,\
   $(eval $(RIVALS)/metrics/$(m)/metrics.yaml: $(foreach o,$(CASES_OBJECTS),$(RIVALS)/simulated/$(m)/$(o)/shade.yaml)))
@@ -155,8 +162,8 @@ RIVALS_ROWS := $(if $(RIVALS_TABLE),$(call rivals_methods,$(RIVALS_TABLE),name))
 RIVALS_SHOWN := $(if $(RIVALS_TABLE),$(filter-out photograph,$(call rivals_methods,$(RIVALS_TABLE),heading)))
 RIVALS_METRICS := $(foreach m,$(RIVALS_ROWS),$(addsuffix /metrics.yaml,$(call rivals_runs,$(m))))
 
-# Cost of an image, on the way of one object, and of all presses; measured when everything else is made, so that nothing runs beside it.
-# $(call rivals_speed,further flags)
+# Cost of an image, along the motion of one object, and of all presses. It is measured last, so that nothing else runs
+# at the same time. $(call rivals_speed,further flags)
 build-bench-rivals: build
 	@$(call compile,$(BUILD),bench_rivals)
 RIVALS_TIMED := depth-based tacto taxim fots chen
@@ -172,7 +179,7 @@ $(RIVALS)/tabulate.yaml: $(RIVALS_TABLE) $(RIVALS_METRICS) $(RIVALS)/speed/bench
 	$(call run,tabulate,--config $(RIVALS_TABLE) --samples $(foreach m,$(RIVALS_ROWS),$(foreach r,$(call rivals_runs,$(m)),$(m)=$(r)/samples.csv)) \
 	  --speeds $(RIVALS)/speed/image_speeds.csv --pictures $(addprefix photograph=,$(CASES_REAL)) $(foreach m,$(RIVALS_SHOWN),$(call rivals_pictures,$(m))))
 
-# docs/sim2real.md has places for the tables of the shipped benchmarks.
+# docs/sim2real.md has marks for the tables of the shipped benchmarks.
 rivals: $(RIVALS)/tabulate.yaml ## studies: TACTO, Taxim, FOTS beside ours on the photographs of sim2real: CASES=… (needs SHARED)
 	@! grep -qsxF '<!-- rivals_$(cases_name) -->' docs/sim2real.md || $(call fill_docs,sim2real.md,rivals_$(cases_name)=$(RIVALS)/table.md)
 	@! grep -qsxF '<!-- speed_$(cases_name) -->' docs/sim2real.md || $(call fill_docs,sim2real.md,speed_$(cases_name)=$(RIVALS)/speed/speeds.md)

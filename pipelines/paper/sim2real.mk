@@ -1,6 +1,8 @@
-# Simulation against photographs: make -f Makefile.data sim2real CASES=configs/studies/sim2real/gelsight_sim2real.yaml
-# The file says which photographs (below SHARED), objects, depths and places. Our images, those of the depth-based method
-# under light fitted to the same balls, and the background alone are scored alike; docs/sim2real.md has the table.
+# Compares simulations with photographs: make -f Makefile.data sim2real
+# CASES=configs/studies/sim2real/gelsight_sim2real.yaml
+# The file lists the photographs (below SHARED), objects, depths and positions. Images of TacIPC and of the depth-based
+# method under light fitted to the same balls, and the background alone, are evaluated alike; docs/sim2real.md has the
+# table.
 
 CASES ?= configs/studies/sim2real/gelsight_sim2real.yaml#  the benchmark
 override CASES := $(strip $(CASES))
@@ -18,7 +20,7 @@ ifeq ($(wildcard $(SHARED)),)
   $(error SHARED: $(SHARED) does not exist; the photographs are looked for there)
 endif
 
-# Inputs of the stages: made from the one file first, then make restarts with its variables. A table of contact
+# Inputs of the stages are made from the single file first, then make restarts with its variables. A table of contact
 # circles that the file names lies among the data.
 include $(SIM2REAL)/cases/cases.mk
 CASES_TABLE := $(addprefix $(SHARED)/,$(CASES_CIRCLES))
@@ -34,7 +36,7 @@ cases_background := $(if $(CASES_TABLE),$(SIM2REAL)/rest/background.png,$(call c
 cases_labels := $(if $(CASES_TABLE),$(SIM2REAL)/cases/labels.txt,$(call cases_data,$(CASES_LABELS)))
 # Contacts of the ball that calibrates need no press of their own.
 cases_press = $(SIM2REAL)/$(if $(CASES_TABLE),ball,objects/$(1))
-# An object where our fit has put it, frame after frame; and a file of each of these frames, one per photograph:
+# An object at the position of TacIPC's fit, frame after frame; and a file of each of these frames, one per photograph:
 # $(call cases_frames,object,folder,first frame,file)
 cases_posed  = --object $(call cases_press,$(1))/indenter/object.ply --pose $(SIM2REAL)/ours/$(1)/object_pose.npy
 cases_frames = $(foreach k,$(shell seq -f %04.0f $(3) $$(($(3) + $(words $(CASES_IMAGES_$(1))) - 1))),$(2)/frame_$(k)/$(4))
@@ -56,12 +58,13 @@ $(eval $(call sim2real_press,$(SIM2REAL)/ball,$(SIM2REAL)/cases/ball,))
 $(if $(CASES_TABLE),,$(foreach o,$(CASES_OBJECTS),$(eval $(call sim2real_press,$(SIM2REAL)/objects/$(o),$(SIM2REAL)/cases/objects/$(o),\
   $(addprefix $(SHARED)/,$(CASES_MESH_$(o)))))))
 
-# Without a photograph without contact: the median of those that calibrate, away from their contacts.
+# If there is no photograph without contact, the background is the median of those that calibrate, away from their
+# contacts.
 $(SIM2REAL)/rest/background.yaml: $(SIM2REAL)/cases/cases.yaml $(always) | build
 	$(call run,background,--config $(SIM2REAL)/cases/background.yaml --labels $(SIM2REAL)/cases/labels.txt --photographs $(call cases_data,$(CASES_PHOTOGRAPHS)))
 background_record := $(if $(CASES_TABLE),$(SIM2REAL)/rest/background.yaml)
 
-# The light: on our membranes, and on those of the depth-based method under the same balls.
+# The light on TacIPC's membranes, and on those of the depth-based method under the same balls.
 calibration_balls = --config $(CASES_CALIBRATE) --sensor $(CASES_SENSOR) --background $(cases_background) \
   --photographs $(call cases_data,$(CASES_PHOTOGRAPHS)) --labels $(cases_labels)
 calibration = $(calibration_balls) $(if $(CASES_KNOWN),--objects $(SIM2REAL)/cases/known_objects.yaml)
@@ -78,9 +81,9 @@ $(SIM2REAL)/rival/calibrate/calibrate.yaml: $(SIM2REAL)/rival/balls/baseline.yam
 	$(call run,calibrate,$(calibration) --shapes $(SIM2REAL)/rival/balls/frame_*/indentation.exr \
 	  $(foreach o,$(CASES_KNOWN),$(SIM2REAL)/rival/objects/$(o)/frame_$(call known_frame,$(o),-1)/indentation.exr))
 
-# Images of one object: ours, then the depth-based method's at the same place and depth.
+# Images of one object: TacIPC's, then the depth-based method's at the same position and depth.
 shading = --config $(SIM2REAL)/cases/objects/$(1)/shade.yaml --sensor $(CASES_SENSOR) --background $(cases_background)
-# Where the images belong: told by contacts, or fitted to one photograph.
+# Position of the images: determined by contacts, or fitted to one photograph.
 placing = $(if $(CASES_TABLE),--contact $(SIM2REAL)/calibrate/contact.yaml,--photograph $(call cases_photograph,$(CASES_FIT_$(1))))
 define sim2real_object
 $(SIM2REAL)/ours/$(1)/shade.yaml: $(call cases_press,$(1))/press/press.yaml $(SIM2REAL)/calibrate/calibrate.yaml $(always) | build
@@ -112,7 +115,7 @@ $(SIM2REAL)/comparison/tabulate.yaml: configs/studies/sim2real/comparison.yaml $
 	$(call run,tabulate,--config $< --benchmark $(CASES) $(cases_circles) --samples $(foreach m,$(SIM2REAL_METHODS),$(m)=$(SIM2REAL)/metrics/$(m)/samples.csv) \
 	  --pictures $(addprefix photograph=,$(CASES_REAL)) $(foreach m,ours depth-based,$(addprefix $(m)=,$(call sim2real_images,$(m)))))
 
-# docs/sim2real.md has places for the tables of the shipped benchmarks.
+# docs/sim2real.md has marks for the tables of the shipped benchmarks.
 sim2real-page: $(SIM2REAL)/comparison/tabulate.yaml
 	@! grep -qsxF '<!-- $(cases_name) -->' docs/sim2real.md || $(call fill_docs,sim2real.md,$(cases_name)=$(SIM2REAL)/comparison/table.md)
 	@echo; echo "Look at $(SIM2REAL)/comparison/sheet.png (photograph | ours | twice the difference | depth-based) and table.md"

@@ -1,18 +1,19 @@
-# A sensor file that makes a user's own photographs:
-#   make -f Makefile.data calibrate-sensor SENSOR_FILE=my/sensor.yaml BACKGROUND=my/background.png [PHOTOGRAPHS=my/balls LABELS=my/labels.txt BALL_MM=3]
-# docs/sensors.md says how to take the photographs, docs/calibrate.md what is fitted.
+# Makes a sensor file from a user's own photographs:
+# make -f Makefile.data calibrate-sensor SENSOR_FILE=my/sensor.yaml BACKGROUND=my/background.png [PHOTOGRAPHS=my/balls
+# LABELS=my/labels.txt BALL_MM=3]
+# docs/sensors.md explains the photographs, docs/calibrate.md the fit.
 $(call uses,sample/sample)
 
-SENSOR_FILE ?=#              the sensor as far as one knows it (start from a file of configs/sensors)
+SENSOR_FILE ?=#              the sensor file as far as it is known (start from a file of configs/sensors)
 BACKGROUND  ?=#              photograph without contact, PNG of the camera's size
 PHOTOGRAPHS ?=#              folder of photographs of a ball pressed into the gel
-LABELS      ?=#              lines `image.png (x, y) radius` in pixels, where its contacts are
+LABELS      ?=#              lines `image.png (x, y) radius` in pixels: its contacts
 BALL_MM     ?= 3#            radius of that ball
-GAP_MM      ?= 0.02#         labels show where ball and gel are this far apart
-LABEL_PX    ?= 1#            how well a label's centre and radius are known
-DEEPEST_MM  ?= 1#            how deep the ball is pressed in the simulation: no label may show more
-BALL_PRESS  ?= configs/studies/sim2real/gsmini_balls/press.yaml# slow, surfaces near together
-FIT         ?=#              a configuration with sensor_fit (default: configs/sensors/calibrate/ring.yaml or list.yaml, as the LEDs stand)
+GAP_MM      ?= 0.02#         gap between ball and gel at the labelled rim, mm
+LABEL_PX    ?= 1#            standard deviation of a label's centre and radius, px
+DEEPEST_MM  ?= 1#            depth of the simulated press, mm: no label may show more
+BALL_PRESS  ?= configs/studies/sim2real/gsmini_balls/press.yaml# slow press with a small gap
+FIT         ?=#              a configuration with sensor_fit (default: configs/sensors/calibrate/ring.yaml or list.yaml, by the LEDs' arrangement)
 CALIBRATE_VARIABLES := SENSOR_FILE BACKGROUND PHOTOGRAPHS LABELS BALL_MM GAP_MM LABEL_PX DEEPEST_MM BALL_PRESS FIT
 $(foreach v,$(CALIBRATE_VARIABLES),$(eval override $(v) := $(strip $($(v)))))
 
@@ -32,7 +33,7 @@ endif
 CALIBRATED := $(OUT)/calibrate/$(basename $(notdir $(SENSOR_FILE)))
 calibrate_photographs := $(if $(PHOTOGRAPHS),$(wildcard $(PHOTOGRAPHS)/*.png))
 
-# As the LEDs of the sensor stand, unless FIT says otherwise.
+# Default configuration by the arrangement of the sensor's LEDs; FIT selects another one.
 calibrate_fit = $(or $(FIT),configs/sensors/calibrate/$$(if $(BIN)/tacipc get $(SENSOR_FILE) leds.ring > /dev/null 2>&1; \
   then echo ring; else echo list; fi).yaml)
 calibrate_balls = {radius_mm: $(BALL_MM)$(comma) contact_gap_mm: $(GAP_MM)$(comma) label_sigma_px: $(LABEL_PX)}

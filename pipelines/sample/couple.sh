@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# Robot and press in turn, window by window, until they agree: couple.sh BIN OUT TASK ROBOT_ARGUMENTS -- PRESS_ARGUMENTS
-# The whole motion is OUT/robot in the end, its scene robot/scene.yaml. OUT/windows/0007/5/02/{robot,press} is the second try of the seventh
-# window, of five frames; OUT/windows/0007/accepted names the try that both agree on. OUT/solved has the frames of accepted windows,
-# OUT/residuals.csv a line per try.
-# What is there of the same inputs is taken as it is, so an interrupted run goes on. A window that does not converge is halved; where one of a single frame
-# does not, the run ends: exit 1. What robot refuses, or press for its input, ends it at once, with their exit code.
+# Couples robot and press: both run in turn, time window by time window, until they agree: couple.sh BIN OUT TASK
+# ROBOT_ARGUMENTS -- PRESS_ARGUMENTS
+# OUT/robot finally holds the whole motion, and robot/scene.yaml its scene. OUT/windows/0007/5/02/{robot,press} is the
+# second iteration ("try") of the seventh window, of five frames; OUT/windows/0007/accepted names the iteration in which
+# both agree. OUT/solved has the frames of accepted windows, OUT/residuals.csv a line per iteration.
+# Existing results of the same inputs are reused, so an interrupted run continues. A window that does not converge is
+# halved; if a window of a single frame does not, the run ends: exit 1. If robot, or press for its input, refuses its
+# input, the run ends at once with that exit code.
 set -euo pipefail
 export LC_ALL=C
 bin=$1 out=$2
@@ -17,12 +19,12 @@ shift
 press=("$@")
 exact_after=6
 mkdir -p "$out/windows" "$out/solved"
-exec 9>> "$out/windows.lock" # which stages do not keep when this is killed
+exec 9>> "$out/windows.lock" # stages do not keep this lock when the script is killed
 flock -w 5 9 || { echo "couple: another run works in $out" >&2; exit 1; }
 summary() { "$bin/tacipc" get "$1/robot.yaml" "summary.$2"; }
 
-# robot_try OUT FRAMES BEFORE LAST [FLAG …]: a try of a window, after the accepted try BEFORE and the last one of the same window; either may be empty.
-# What robot refuses, a shorter window does not mend.
+# robot_try OUT FRAMES BEFORE LAST [FLAG …]: one iteration of a window, after the accepted iteration BEFORE and the last
+# one of the same window; either may be empty. A shorter window cannot remedy an error of robot.
 robot_try() {
   local known=()
   [ -z "$3" ] || known+=(--start "$3/robot")
@@ -30,7 +32,7 @@ robot_try() {
   "$bin/robot" "${robot[@]}" --frames "$2" ${known[@]+"${known[@]}"} "${@:5}" --out "$1" 9>&- || exit $?
 }
 
-# try_window FRAMES FOLDER: sets `accepted` to the try that both agree on; not 0 if there is none.
+# try_window FRAMES FOLDER: sets `accepted` to the iteration in which both agree; nonzero status if there is none.
 try_window() {
   local frames=$1 folder=$2 k=1 now last='' code apart
   : > "$folder/residuals.csv"
@@ -38,7 +40,8 @@ try_window() {
     now=$folder/$(printf '%02d' "$k")
     [ -f "$now/robot/robot.yaml" ] || robot_try "$now/robot" "$frames" "$before" "$last"
     if [ -n "$last" ]; then
-      # After some tries the gels' answers may jump, so that no force agrees: then the robot feels an answer as it is, and may go a little elsewhere.
+      # After some iterations the gels' responses may jump, so that no force agrees. Then the robot is loaded by a
+      # response as it is, and may end at a slightly different position.
       apart=''
       if [ "$k" -gt "$exact_after" ] && [ "$(summary "$now/robot" converged)" != true ]; then
         rm -rf "$folder/agreed"
@@ -67,7 +70,7 @@ try_window() {
   done
 }
 
-# What the windows are of: all that robot reads and is told, and press. Those of anything else are none of this run.
+# Inputs of the windows: all inputs of robot and press. Windows of other inputs are not part of this run.
 robot_try "$out/windows/begin" "$window" '' ''
 {
   awk '/^inputs:/ { on = 1 } /^outputs:/ { on = 0 } /^task:/ { on = 1 } /^config:/ { on = 0 } on && !/^    path: /' "$out/windows/begin/robot.yaml"
@@ -98,11 +101,11 @@ for ((w = 1;; ++w)); do
       length=$((length / 2))
       echo "couple: window $w does not converge; now with $length frames"
     done
-    # The answer's frames are the run's from here on; as links, so that a run that dies in between finds both.
+    # From here on the frames of the press are the run's; they are links, so that a run that dies in between finds both.
     ln -f "$accepted"/press/solved/* "$out/solved/"
     echo "${accepted#"$folder"/}" > "$folder/accepted.new"
     mv "$folder/accepted.new" "$folder/accepted"
-    # Of the tries their records, poses and wrenches stay.
+    # Records, poses and wrenches of the iterations stay.
     rm -rf "$folder"/*/*/press/{gels,soft,solved}
     tail -n 1 "$folder/$length/residuals.csv" |
       awk -F, -v w="$w" '{ printf "couple: window %d: frames %d to %d agree after %d tries, residual %.2g\n", w, $3 + 1, $3 + $2, $4, $6 }'
@@ -118,7 +121,8 @@ for ((w = 1;; ++w)); do
 done
 { echo 'window,frames,first_frame,try,residual_n,residual_relative,stiffness_n_m,apart_m'; cat "$out"/windows/*/*/residuals.csv; } > "$out/residuals.csv.new"
 mv "$out/residuals.csv.new" "$out/residuals.csv"
-# The last accepted try has the whole motion; made once more where it is to lie, so that the paths in its files are right.
+# The last accepted iteration has the whole motion. It is made again in its final folder, so that the paths in its files
+# are right.
 frames=${accepted%%/*} last='' flags=()
 if [ -f "$before/of" ]; then
   last=$folder/$frames/$(cat "$before/of") flags=(--exact yes)

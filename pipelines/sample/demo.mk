@@ -1,5 +1,5 @@
-# The demo: embossed objects of different kinds pressed 0.5 mm into the MC-Tac gel; two of them again, on a
-# coarser gel, dragged and turned afterwards; two of them in the gels of the other sensors.
+# The demo: embossed objects of different kinds pressed 0.5 mm into the MC-Tac gel. On a coarser gel, two of them are
+# afterwards moved sideways and turned; two are pressed into the gels of the other sensors.
 
 DEMO_COARSE := star gear dots rings weave
 DEMO_FINE   := letter_a

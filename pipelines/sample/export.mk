@@ -1,10 +1,12 @@
-# VTK files of one sample, grasp, scene or robot for ParaView, and a glTF file: make -f Makefile.data export SAMPLE=out/demo/star
+# Exports VTK files of one sample, grasp, scene or robot for ParaView, and a glTF file: make -f Makefile.data export
+# SAMPLE=out/demo/star
 # A video of it: make -f Makefile.data export SAMPLE=out/demo/star FORMAT=video
 $(call uses,sample/sample)
 
-# FORMAT=video on the command line; without it VTK and glTF (the variable is that of `repack`, whose file has another default)
+# FORMAT=video is taken from the command line; otherwise VTK and glTF (the variable belongs to `repack`, whose file has
+# another default)
 export_format := $(or $(patsubst FORMAT=%,%,$(filter FORMAT=%,$(MAKEOVERRIDES))),vtk)
-SLOWER ?= auto#  of a video: how many times slower than the motion (auto: so that single frames are seen)
+SLOWER ?= auto#  video: slowdown relative to the motion (auto: single frames are visible)
 slower_given := $(filter command,$(firstword $(origin SLOWER)))
 override SLOWER := $(strip $(SLOWER))
 
@@ -23,16 +25,16 @@ endif
 override SAMPLE := $(patsubst %/,%,$(strip $(SAMPLE)))
 $(call check_name,SAMPLE)
 
-# A grasp's or a scene's own folder is what its press wrote.
+# Folder of the press: for a grasp or a scene the folder itself.
 exported := $(SAMPLE)$(if $(wildcard $(SAMPLE)/press.yaml),,/press)
-# $(call press_input,gel): the file the press was made with; its record says where, as seen from its own folder.
+# $(call press_input,gel): input file of the press; its record has the path relative to its own folder.
 press_input = $(exported)/$$($(BIN)/tacipc get $(exported)/press.yaml inputs.$(1).path)
 
 $(SAMPLE)/export/export.yaml: $(exported)/press.yaml $(always) | build
 	$(call run,export,--press $(exported) --gel $(call press_input,gel) $$($(BIN)/tacipc get $(exported)/press.yaml inputs.object.path --default '' \
 	  | sed -n 's#^.#--object $(exported)/&#p'))
 
-# Gels of a video and their images: from the page if it has all frames, else rendered in frames/.
+# Gels of a video and their images: from the page if it has all frames, otherwise rendered in frames/.
 filmed := $(or $(patsubst %/press/press.yaml,%,$(wildcard $(SAMPLE)/left/press/press.yaml $(SAMPLE)/right/press/press.yaml \
   $(SAMPLE)/gels/*/press/press.yaml)),$(SAMPLE))
 has_all_frames = $(shell grep -ls '^ *frames: all$$' $(1)/render/render.yaml)
@@ -52,7 +54,7 @@ $(SAMPLE)/video/choice.txt: FORCE
 $(SAMPLE)/video/video.yaml: $(exported)/press.yaml $(film_images:=/render.yaml) $(SAMPLE)/video/choice.txt | build video_built
 	$(call run,video,--press $(exported) $(addprefix --render ,$(film_images)) --slower $(SLOWER))
 	$(if $(wildcard $(SAMPLE)/report/report.yaml),$(film_page))
-# The sample's own page again, which shows the frames once they are rendered.
+# The sample's own page is made again, because it shows the frames once they are rendered.
 film_page = $(if $(filter $(SAMPLE)/frames,$(film_images)),OPENBLAS_NUM_THREADS=1 $(BIN)/report --out $(SAMPLE)/report --log-level warning \
   --title "$(notdir $(SAMPLE))" --sample $(SAMPLE))
 film_says = $(if $(filter %/frames,$(film_images)),echo "All frames were rendered in $(filter %/frames,$(film_images)): \

@@ -1,15 +1,16 @@
-# Two sensors grip, hold and lift an object of your own: make -f Makefile.data grasp OBJECT=path.stl [MASS_G=80 FORCE_N=5 and below]
-# SENSOR, MESH, PRESS, FRICTION, UNIT, SCALE, WRAP, FORCE_N and NAME mean what they mean for `sample`.
+# Two sensors grip, hold and lift a user's object: make -f Makefile.data grasp OBJECT=path.stl [MASS_G=80 FORCE_N=5 and
+# below]
+# SENSOR, MESH, PRESS, FRICTION, UNIT, SCALE, WRAP, FORCE_N and NAME have the same meaning as for `sample`.
 $(call uses,sample/sample)
 
-MASS_G  ?= 80#      of the object
-TURN    ?=#         degrees by which it is turned about the vertical before it is gripped (0),
-GRIP    ?=#         mm from its centre of mass to where it is gripped, along its own axes (0,0,0); where neither is given, a grasp is drawn:
-SEED ?= 1#    another number, another grasp
-LIFT_MM ?= 10#      how far it is lifted
-LIFT_STEPS ?= 20#   frames of that: 0.2 s with time steps of 10 ms
-GRASP   ?=#         or a file of your own (docs/grasp.md) in place of all these and FORCE_N
-# Given on the command line.
+MASS_G  ?= 80#      mass of the object, g
+TURN    ?=#         rotation of the object about the vertical before the grip, degrees (0)
+GRIP    ?=#         grip relative to its centre of mass, mm, along its own axes (0,0,0). Without TURN and GRIP, a grasp is drawn
+SEED ?= 1#    seed of the drawn grasp
+LIFT_MM ?= 10#      height of the lift, mm
+LIFT_STEPS ?= 20#   frames of the lift: 0.2 s with time steps of 10 ms
+GRASP   ?=#         a file of your own (docs/grasp.md) that replaces all these and FORCE_N
+# Variables given on the command line.
 grasp_given := $(foreach v,MASS_G TURN GRIP SEED LIFT_MM LIFT_STEPS,$(if $(filter command,$(firstword $(origin $(v)))),$(v))) $(filter FORCE_N,$(given))
 $(foreach v,MASS_G TURN GRIP SEED LIFT_MM LIFT_STEPS GRASP,$(eval override $(v) := $(strip $($(v)))))
 
@@ -33,7 +34,7 @@ endif
 ifneq ($(and $(TURN)$(GRIP),$(filter SEED,$(grasp_given))),)
   $(error SEED: has no effect where TURN or GRIP say how the object is gripped)
 endif
-# The grasp that the variables say, or of a hundred drawn grasps the one nearest to the centre of mass.
+# The grasp given by the variables, or the one nearest to the centre of mass among a hundred drawn grasps.
 grasp_chosen = turn_deg: $(or $(TURN),0), grip_mm: [$(or $(GRIP),0$(comma)0$(comma)0)]
 grasp_drawn  = draw: {seed: $(SEED), best_of: 100, upright: true}
 define grasp_yaml

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A line for make with the path files that a motion names: motion_paths.sh TACIPC [MOTION.yaml]. One that is not there, or
-# that make would take for several files, is a fault: said, and exit 1.
+# Prints a line for make with the path files that a motion names: motion_paths.sh TACIPC [MOTION.yaml]. A missing file,
+# or a name that make would take for several files, is an error: message and exit 1.
 set -euo pipefail
 export LC_ALL=C
 tacipc=$1 motion=${2:-} named='' paths=''

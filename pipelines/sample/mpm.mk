@@ -1,4 +1,5 @@
-# One object in a gel of material points: the sample of pipelines/sample/sample.mk without its friction, which MPM's grid does not know.
+# One object in a gel of material points: the sample of pipelines/sample/sample.mk without friction, which MPM's grid
+# lacks.
 $(call uses,sample/sample)
 
 MPM ?= legacy_mctac#  a file of configs/rivals/mpm
@@ -23,11 +24,11 @@ mpm-sample:
 	@echo "mpm-sample: say which object: make -f Makefile.data mpm-sample OBJECT=path.stl" >&2; exit 2
 endif
 
-# What material points cost, beside what the memory allows. Nothing else should run beside it.
+# Cost of material points, compared with the memory bandwidth. Nothing else should run at the same time.
 build-bench-mpm: build
 	@$(call compile,$(BUILD),bench_mpm)
 
-# Measured again at every call.
+# The measurement is repeated at every call.
 bench-mpm-page: $(OUT)/objects/star/decimate.yaml | build-bench-mpm
 	$(BIN)/bench_mpm --out $(OUT)/bench_mpm --threads 2 --sensor configs/sensors/mctac.yaml --object $(OUT)/objects/star/object.ply \
 	  --config configs/rivals/mpm/legacy_mctac.yaml --config configs/rivals/mpm/physical.yaml

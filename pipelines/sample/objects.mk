@@ -1,5 +1,5 @@
-# Real objects, to see that the press is robust: every mesh of the shared data into our own gel, ten of them into the paper's.
-# SHARED is a folder with data/tacipc_release and data/printed_indenters (not part of this repository).
+# Real objects, to test that the press is robust: every mesh of the shared data in the default gel, ten of them in the
+# paper's. SHARED is a folder with data/tacipc_release and data/printed_indenters (not part of this repository).
 
 TABLE := $(OUT)/objects-table
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the table of docs/objects.md from records and times: objects_table.sh FOLDER TACIPC
+# Makes the table of docs/objects.md from records and timings: objects_table.sh FOLDER TACIPC
 set -euo pipefail
 export LC_ALL=C
 folder=$1 tacipc=$2

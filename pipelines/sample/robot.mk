@@ -1,9 +1,10 @@
-# A robot of MuJoCo with gels on its fingers (docs/robot.md): make -f Makefile.data robot TASK=configs/tasks/lift_and_shake.yaml
-# SENSOR, MESH, PRESS, SEED and NAME mean what they mean for `sample` and `grasp`.
+# A robot of MuJoCo with gels on its fingers (docs/robot.md): make -f Makefile.data robot
+# TASK=configs/tasks/lift_and_shake.yaml
+# SENSOR, MESH, PRESS, SEED and NAME have the same meaning as for `sample` and `grasp`.
 $(call uses,sample/sample sample/grasp)
 
 TASK  ?=#      a task of configs/tasks, or a file of your own
-ALONE ?= no#   yes: the robot moves by MuJoCo's own contacts, and the gels follow; no: it feels what the gels answer
+ALONE ?= no#   yes: the robot moves by MuJoCo's own contacts, and the gels follow; no: the gels' response loads the robot
 $(foreach v,TASK ALONE,$(eval override $(v) := $(strip $($(v)))))
 
 ifeq ($(filter yes no,$(ALONE)),)
@@ -11,10 +12,11 @@ ifeq ($(filter yes no,$(ALONE)),)
 endif
 robot_is_built = @[ -x $(BIN)/robot ] || { echo "robot: not built for want of libmujoco-dev: make -f Makefile.data packages build GROUPS=robot" >&2; exit 2; }
 
-# $(call robot_rules,folder,name,task,sensor,mesh,press,seed): the robot in folder/robot, what its gels do in folder, the page in folder/report.
-# Files that a task names are not make's to know: what depends on them is what the task's own folders hold.
+# $(call robot_rules,folder,name,task,sensor,mesh,press,seed): the robot in folder/robot, the results of its gels in
+# folder, the page in folder/report. Make does not track files that a task names: results depend on the contents of the
+# task's own folders.
 robot_pads = { $(BIN)/tacipc get $(1) pads --fields name 2> /dev/null || $(BIN)/tacipc get $(1) pads.name; }# lists the pads of a task
-# What else a name says, make would do.
+# Make would interpret other characters in a name.
 plain_pads = { ! $(call robot_pads,$(1)) | grep -q '[^A-Za-z0-9_-]' || { echo "TASK: $(1): a pad's name has letters, digits, _ and - alone" >&2; exit 1; }; }
 define robot_rules
 $(1)/choice.txt: FORCE
@@ -31,7 +33,7 @@ $(1)/press.yaml: $(1)/robot/robot.yaml $(always) | build
 	  --sample $(1)/robot/scene.yaml $(if $(filter yes,$(ALONE)),,--solved $(1)/solved))
 $(1)/gels/%/render/render.yaml: $(1)/press.yaml configs/sensors/$(4).yaml configs/render/all_frames.yaml $$(REFERENCES) $(always) | build
 	$$(call run,render,--press $(1)/gels/$$*/press --gel $$(OUT)/gels/$(4)-$(5)/gel.msh --sensor configs/sensors/$(4).yaml --config configs/render/all_frames.yaml)
-# Which gels there are.
+# Names of the gels.
 $(1)/pads.mk: $(3) FORCE | build
 	$$(call replace_if_changed_by,$$(call plain_pads,$(3)) && echo "robot_pads_$(2) := $$$$($$(call robot_pads,$(3)) | paste -s -d ' ')")
 include $(1)/pads.mk

@@ -3,31 +3,31 @@
 SENSOR   ?= mctac#            a file of configs/sensors
 MESH     ?= adaptive_0250um#  a file of configs/gels
 PRESS    ?= default#          a file of configs/press
-FRICTION ?=#                  friction coefficient (default: as PRESS says)
-MOTION   ?= press#            press and what follows it: shear twist tilt hold release, joined by +; or a file.yaml with motion and placement
-DEPTH_MM ?= 0.5#              how deep the lowest point goes
+FRICTION ?=#                  friction coefficient (default: from PRESS)
+MOTION   ?= press#            press and the following motions: shear twist tilt hold release, joined by +; or a file.yaml with motion and placement
+DEPTH_MM ?= 0.5#              depth of the lowest point
 FORCE_N  ?=#                  press until this force instead of a depth
-DENSITY  ?= 7800#             of the object, kg/m3, for FORCE_N
+DENSITY  ?= 7800#             density of the object, kg/m3, for FORCE_N
 STEPS    ?= 5#                frames of the press
-SHEAR_MM  ?= 0.5#             how far it is dragged
-DIRECTION ?= 0#               where to: degrees from x (image right) towards y (image down); of tilt too
-TWIST_DEG ?= 10#              how far it is turned about z
-TILT_DEG  ?= 5#               how far it is tilted
+SHEAR_MM  ?= 0.5#             sideways travel
+DIRECTION ?= 0#               direction of shear and tilt: degrees from x (image right) towards y (image down)
+TWIST_DEG ?= 10#              rotation about z
+TILT_DEG  ?= 5#               tilt angle
 MOVE_STEPS ?= 20#             frames of each motion after the press
-UNIT     ?= auto#             of the object's file: m, cm, mm, um, in (default: as its format or name says, part_cm.stl, else mm)
-SCALE    ?= 1#                of the object; fit: the side that presses fills nine tenths of the sensor's window
+UNIT     ?= auto#             unit of the object's file: m, cm, mm, um, in (default: from its format or name, part_cm.stl; otherwise mm)
+SCALE    ?= 1#                scale of the object; fit: the side that presses fills nine tenths of the sensor's field of view
 SHEET_MM ?=#                  thickness of a plate made of each open surface (default: one side of it is pressed)
 WRAP     ?=#                  yes, or a radius in mm: press a closed surface wrapped around the mesh: it keeps undercuts,
                             # and bridges gaps that a ball of that radius does not get into
 UP       ?=#                  side of the object that looks away from the gel: +x -x +y -y +z -z
-FACE     ?=#                  side that presses (default: opposite of UP, else that of most relief in the window)
+FACE     ?=#                  side that presses (default: opposite of UP, otherwise that of most relief in the field of view)
 ROTATE   ?= 0#                degrees about the sensor's z axis
-CENTER   ?= 0,0#              where on the gel (mm) the centre of the object's bounding box lands (default: most relief in the middle, if no side is named)
-TURNS    ?= 0 90#             gallery: degrees about the sensor's z axis that each side is pressed at: 0 90 180 270
-NAME     ?= $(basename $(notdir $(OBJECT)))# of the sample
+CENTER   ?= 0,0#              position of the bounding box's centre on the gel, mm (default: most relief in the middle, if no side is named)
+TURNS    ?= 0 90#             gallery: rotations of each side about the sensor's z axis, degrees: 0 90 180 270
+NAME     ?= $(basename $(notdir $(OBJECT)))# name of the sample
 SAMPLE_VARIABLES := SENSOR MESH PRESS FRICTION MOTION DEPTH_MM FORCE_N DENSITY STEPS SHEAR_MM DIRECTION TWIST_DEG TILT_DEG MOVE_STEPS \
   UNIT SCALE SHEET_MM WRAP UP FACE ROTATE CENTER TURNS NAME
-given := $(foreach v,$(SAMPLE_VARIABLES),$(if $(filter command,$(firstword $(origin $(v)))),$(v)))# on the command line
+given := $(foreach v,$(SAMPLE_VARIABLES),$(if $(filter command,$(firstword $(origin $(v)))),$(v)))# variables given on the command line
 $(foreach v,$(SAMPLE_VARIABLES),$(eval override $(v) := $(strip $($(v)))))
 
 .PHONY: sample track gallery
@@ -84,7 +84,7 @@ press_config := $(if $(FRICTION),$(SAMPLE)/press_config.yaml,configs/press/$(PRE
 
 side_given  := $(or $(FACE),$(if $(filter +%,$(UP)),$(patsubst +%,-%,$(UP)),$(patsubst -%,+%,$(UP))))
 choose_side := $(if $(motion_file)$(side_given),,yes)
-# The variables as configuration files, rewritten only when they change.
+# Configuration files from the variables, rewritten only if they change.
 press_phase   = {kind: press, $(if $(FORCE_N),force_n: $(FORCE_N),depth_mm: $(DEPTH_MM)), steps: $(STEPS)}
 shear_phase   = {kind: shear, direction_deg: $(DIRECTION), distance_mm: $(SHEAR_MM), steps: $(MOVE_STEPS)}
 twist_phase   = {kind: twist, angle_deg: $(TWIST_DEG), steps: $(MOVE_STEPS)}
@@ -108,17 +108,18 @@ $(if $(SHEET_MM),sheet_thickness_mm: $(SHEET_MM))
 $(if $(filter-out no,$(WRAP)),wrap: {$(if $(filter-out yes,$(WRAP)),alpha_mm: $(WRAP))})
 height_field:
 endef
-# Which side presses: that of most relief in the sensor's window, unless a variable or the motion's file says one. A mesh
-# that no repair closes is pressed as what that side shows.
+# Pressing side: that of most relief in the sensor's field of view, unless a variable or the motion's file selects one.
+# A mesh that no repair closes is pressed as the solid of that side.
 pressed_side = $(if $(choose_side),most_relief,$(if $(motion_file),$(side_of_motion),$(side_given)))
 side_of_motion = $$($(BIN)/tacipc get $(motion_file) placement.face --default "$(or $(side_given),-z)")
-# Which files a motion follows; what is wrong with them or with FRICTION is said before anything is made.
+# Path files of a motion; errors in them or in FRICTION are reported before anything is made.
 ifneq ($(motion_file)$(FRICTION),)
 $(SAMPLE)/paths.mk: $(motion_file) $(if $(FRICTION),$(SAMPLE)/press_config.yaml) FORCE | build
 	$(call replace_if_changed_by,bash pipelines/sample/motion_paths.sh $(BIN)/tacipc $(motion_file))
 include $(SAMPLE)/paths.mk
 endif
-# Which files are meant: another object, sensor, mesh, press or motion under the same name must redo the sample however old its files are.
+# Paths of the chosen files: another object, sensor, mesh, press or motion under the same name must redo the sample,
+# regardless of its age.
 choice_yaml = {object: $(abspath $(OBJECT)), sensor: $(SENSOR), mesh: $(MESH), press: $(PRESS), friction: $(or $(FRICTION),as said), \
   motion: $(or $(abspath $(motion_file)),as said)}
 $(SAMPLE)/$(if $(choose_side),asked,sample).yaml: FORCE
@@ -133,14 +134,14 @@ $(SAMPLE)/choice.txt: FORCE
 $(SAMPLE)/wrap/wrap.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(SAMPLE)/choice.txt $(always) | build
 	$(wrap_is_built)
 	$(call run,wrap,--mesh $(OBJECT) --object $(SAMPLE)/object.yaml)
-# What decimate takes: the mesh, or the wrap with an object file of its own.
+# Input of decimate: the mesh, or the wrap with an object file of its own.
 wrap_made = $(if $(filter-out no,$(WRAP)),$(SAMPLE)/wrap/$(1),$(2))
 $(SAMPLE)/object/decimate.yaml: $(OBJECT) $(SAMPLE)/object.yaml $(call wrap_made,wrap.yaml) $(SAMPLE)/choice.txt configs/objects/decimate/default.yaml \
     configs/sensors/$(SENSOR).yaml $(always) | build
 	$(call run,decimate,--mesh $(call wrap_made,object.ply,$(OBJECT)) --object $(call wrap_made,object.yaml,$(SAMPLE)/object.yaml) \
 	  --config configs/objects/decimate/default.yaml --sensor configs/sensors/$(SENSOR).yaml)
 ifdef choose_side
-# The place of most relief too, where the object is neither turned nor placed.
+# Also the position of most relief, if the object is neither turned nor placed.
 side := $(BIN)/tacipc get $(SAMPLE)/object/decimate.yaml summary.sides
 $(SAMPLE)/sample.yaml: $(SAMPLE)/asked.yaml $(SAMPLE)/object/decimate.yaml
 	$(call replace_if_changed_by,$(BIN)/tacipc set $< "+placement.face=$$($(side).pressed)" \
@@ -152,7 +153,7 @@ chosen_rules = $(call sample_rules,$(1),name=$(2) object=$(SAMPLE)/object object
 $(eval $(call chosen_rules,$(SAMPLE),$(NAME),$(sample_spec)))
 $(eval $(call report_rules,$(SAMPLE),$(NAME),$(SAMPLE)))
 
-# Every frame rendered, and the printed markers found in the images.
+# Every frame rendered, and the printed markers tracked in the images.
 $(SAMPLE)/frames/render.yaml: $(SAMPLE)/press/press.yaml configs/sensors/$(SENSOR).yaml configs/render/all_frames.yaml $(REFERENCES) $(always) | build
 	$(call run,render,--press $(SAMPLE)/press --gel $(OUT)/gels/$(SENSOR)-$(MESH)/gel.msh --sensor configs/sensors/$(SENSOR).yaml \
 	  --config configs/render/all_frames.yaml)
@@ -174,7 +175,7 @@ ifneq ($(filter-out 0 90 180 270,$(TURNS)),)
   $(error TURNS: '$(TURNS)' must be some of 0 90 180 270)
 endif
 endif
-GALLERY_SIDES := +x -x +y -y +z -z# in the order of the record
+GALLERY_SIDES := +x -x +y -y +z -z# sides in the order of the record
 GALLERY_POSES := $(foreach s,$(GALLERY_SIDES),$(foreach t,$(TURNS),$(s)_$(t)))
 $(SAMPLE)/gallery/%/sample.yaml: $(SAMPLE)/asked.yaml $(SAMPLE)/object/decimate.yaml
 	$(call replace_if_changed_by,bash pipelines/sample/pose.sh $(BIN)/tacipc $^ $(subst _, ,$*))

@@ -1,9 +1,10 @@
-# A scene of gels, soft, rigid and fixed bodies (docs/scenes.md): make -f Makefile.data scene SCENE=configs/scenes/lift_block.yaml
-# SENSOR, MESH, PRESS, FRICTION and NAME mean what they mean for `sample`.
+# A scene of gels, soft, rigid and fixed bodies (docs/scenes.md): make -f Makefile.data scene
+# SCENE=configs/scenes/lift_block.yaml
+# SENSOR, MESH, PRESS, FRICTION and NAME have the same meaning as for `sample`.
 $(call uses,sample/sample)
 
 SCENE ?=#                  a file with the section `bodies`
-SOFT  ?= uniform_0500um#   a file of configs/gels: how soft bodies that are given as a surface are filled with tetrahedra
+SOFT  ?= uniform_0500um#   a file of configs/gels: tetrahedra of soft bodies that are given as a surface
 $(foreach v,SCENE SOFT,$(eval override $(v) := $(strip $($(v)))))
 
 .PHONY: scene
@@ -23,7 +24,7 @@ endif
 SCENED       := $(OUT)/scene/$(scene_name)
 scene_config := $(if $(FRICTION),$(SCENED)/press_config.yaml,configs/press/$(PRESS).yaml)
 scene_gel    := $(OUT)/gels/$(SENSOR)-$(MESH)
-# Which bodies there are, and their files; what is wrong with them is said before anything is made.
+# Bodies of the scene and their files; errors in them are reported before anything is made.
 $(SCENED)/bodies.mk: $(SCENE) FORCE | build
 	$(call replace_if_changed_by,bash pipelines/sample/scene_bodies.sh $(BIN)/tacipc $(SCENE))
 include $(SCENED)/bodies.mk

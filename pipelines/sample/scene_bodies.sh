@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# What make must know of a scene: scene_bodies.sh TACIPC SCENE.yaml. Lines with its gels, the soft bodies that are given as a surface, the
-# surface of each, and all files that its bodies name. One that is not there, or that make would take for several, is a fault: said, and exit 1.
+# Prints a scene's data for make: scene_bodies.sh TACIPC SCENE.yaml. Lines list its gels, the soft bodies given as a
+# surface, the surface of each, and all files that its bodies name. A missing file, or a name that make would take for
+# several files, is an error: message and exit 1.
 set -euo pipefail
 export LC_ALL=C
 tacipc=$1 scene=$2 gels='' soft='' files='' surfaces='' absent=-
 folder=./
 case $scene in */*) folder=${scene%/*}/ ;; esac
 fault() { echo "SCENE: $scene: body $name names '$file', $1" >&2; exit 1; }
-file_of() { # file_of NAMED: sets file to what a body names, as seen from here
+file_of() { # file_of NAMED: sets file to the path of a body's file, relative to the current folder
   case $1 in
     "$absent") file='' && return ;;
     /*) file=$1 ;;

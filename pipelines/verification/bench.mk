@@ -1,15 +1,15 @@
-# What a press costs: the same presses by the default route and by factorisation, over sizes of gel, objects and motions, with threads
-# and beside each other. Every press is a folder; an interrupted benchmark resumes. Nothing else should run beside it.
-# The coin of the paper's release is measured too where SHARED has it.
+# Cost of a press: the same presses by the default route and by factorisation, over sizes of gel, objects and motions,
+# with threads and in parallel. Every press has a folder; an interrupted benchmark resumes. Nothing else should run at
+# the same time. The coin of the paper's release is also measured if SHARED has it.
 
 BENCH := $(OUT)/bench
-BENCH_GELS ?= 3k 12k 24k 50k 100k#     pressed;
-BENCH_SHEAR_GELS ?= 3k 12k 24k#        sheared,
-BENCH_DIRECT_GELS ?= 3k 12k 24k#       pressed with every system factorised
+BENCH_GELS ?= 3k 12k 24k 50k 100k#     pressed gels
+BENCH_SHEAR_GELS ?= 3k 12k 24k#        sheared gels
+BENCH_DIRECT_GELS ?= 3k 12k 24k#       gels pressed with every system factorised
 BENCH_OBJECTS := sphere coin weave
 BENCH_RELEASED := $(if $(wildcard $(SHARED)/data/tacipc_release/objects/coin_5002.obj),coin_5002)#  pressed with the paper's stiffness
-BENCH_SHEAR_OBJECTS ?= $(BENCH_OBJECTS)#  sheared,
-BENCH_DIRECT_OBJECTS ?= sphere coin#      compared with other routes and in other scenes
+BENCH_SHEAR_OBJECTS ?= $(BENCH_OBJECTS)#  sheared objects
+BENCH_DIRECT_OBJECTS ?= sphere coin#      objects compared with other routes and in other scenes
 bench_config = $(BENCH)/configs/$(if $(filter shear,$(1)),press,$(1))_$(2).yaml
 bench_sample = configs/$(if $(filter shear,$(1)),studies/speed/shear,motions/press_0500um).yaml
 bench_object_config = $(if $(filter coin_5002,$(1)),configs/objects/printed_indenter.yaml,configs/objects/embossed.yaml)
@@ -36,7 +36,7 @@ $(BENCH)/gels/%/tetmesh.yaml: $(BENCH)/configs/gel_%.yaml configs/sensors/mctac.
 BENCH_SCENE_press   :=
 BENCH_SCENE_settled := friction.lag=iterated# until friction is consistent with its own contact forces
 BENCH_SCENE_stiff   := barrier.stiffness=1.0e6# [paper] the coin of its release has walls too sharp for a tenth of it
-BENCH_SCENE_thin    := barrier.relative_d_hat=2.0e-4 barrier.stiffness=1.25e7# a fifth of d_hat; the same force at half of it (kappa ~ d_hat^-3)
+BENCH_SCENE_thin    := barrier.relative_d_hat=2.0e-4 barrier.stiffness=1.25e7# a fifth of d_hat; the same force at half that distance (kappa ~ d_hat^-3)
 BENCH_SCENE_tight   := newton.relative_velocity_tolerance=1.0e-4 newton.relative_force_tolerance=5.0e-5 newton.force_tolerance_n=1.0e-6
 BENCH_SCENE_sweep   := $(BENCH_SCENE_stiff) $(BENCH_SCENE_tight)
 BENCH_ROUTE_fast     :=
@@ -106,18 +106,19 @@ bench-page: $(BENCH)/page/bench_table.yaml
 	@cat $(DOCS)/performance.md
 	@echo; echo "estimate reads $(COST_MODEL_MEASURED) from now on"
 
-# One after the other, whatever JOBS says: what runs beside a press is measured with it. The table is always made again, for other runs may be asked for:
-# with .SECONDARY a table that is newer than what the runs are made of would not miss them.
+# Presses run one after the other regardless of JOBS, because parallel work would be measured with them. The table is
+# always made again, because other runs may be requested: with .SECONDARY, a table newer than the prerequisites of the
+# runs would not trigger them.
 bench-press: ## development: Cost of a press by route, size, object and motion (15 minutes; BENCH_GELS=); writes OUT/docs/performance.md and a cost model
 bench-press: | build build-bench
 	@rm -f $(BENCH)/page/bench_table.yaml
 	@$(MAKE) -f Makefile.data --no-print-directory bench-page JOBS=1
 
-# What the shipped settings cost, and with one of them changed; docs/performance.md has a place for the table.
+# Cost of the default settings, and with one of them changed; docs/performance.md has a mark for the table.
 DEFAULTS := $(BENCH)/defaults
-DEFAULTS_OBJECTS ?= star letter_a gear weave rings coin#  the coin of bench-press among them
-DEFAULTS_SHEARED ?= star coin#  dragged after the press
-DEFAULTS_NEAR    ?= $(DEFAULTS_OBJECTS)#  against a press that comes nearer
+DEFAULTS_OBJECTS ?= star letter_a gear weave rings coin#  include the coin of bench-press
+DEFAULTS_SHEARED ?= star coin#  objects moved sideways after the press
+DEFAULTS_NEAR    ?= $(DEFAULTS_OBJECTS)#  objects compared with a press with a smaller gap
 DEFAULTS_GEL     ?= adaptive_0100um
 defaults_object = $(if $(filter coin,$(1)),$(BENCH),$(OUT))/objects/$(1)
 defaults_config = $(if $(filter default frictionless,$(1)),configs/press,$(DEFAULTS)/configs)/$(1).yaml

@@ -1,5 +1,5 @@
 #!/bin/bash
-# campaign_page.sh FOLDER SUMMARY: the page of the campaign whose cases are in FOLDER, with what they cost.
+# campaign_page.sh FOLDER SUMMARY: writes the page of the campaign whose cases are in FOLDER, with their cost.
 set -euo pipefail
 folder=$1 summary=$2
 cat "$summary"

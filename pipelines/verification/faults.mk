@@ -1,4 +1,5 @@
-# Faults in every stage: pipeline tests run with programs that are killed, have no room, and read damaged files (faults.sh says how).
+# Fault injection in every stage: pipeline tests run with programs that are killed, lack disk space, and read damaged
+# files (see faults.sh).
 
 $(call uses,verification/stress)# for SEED
 

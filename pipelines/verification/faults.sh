@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# faults.sh TEST BIN SEED FOLDER: a pipeline test (tests/pipeline/TEST.sh) whose stages meet faults, by faulty_stage.sh in their place.
-# FOLDER/injected.csv has a line per fault, FOLDER/finds/ what was not borne, with its command; FOLDER/faults.yaml last.
+# faults.sh TEST BIN SEED FOLDER: runs a pipeline test (tests/pipeline/TEST.sh) in which faulty_stage.sh replaces the
+# stages and injects faults. FOLDER/injected.csv has a line per fault, FOLDER/finds/ the faults that were not handled,
+# with their command; FOLDER/faults.yaml is written last.
 set -euo pipefail
 test=$1 bin=$(realpath "$2") seed=$3 folder=$4
 rm -rf "$folder"
 mkdir -p "$folder/build/bin" "$folder/finds"
 folder=$(realpath "$folder")
-# The programs of a build: stages by the one that strikes them, all others as they are.
+# Programs of a build: faulty_stage.sh in place of each stage, all others unchanged.
 for program in "$bin"/*; do
   name=$(basename "$program")
   if compgen -G "stages/*/$name/main.cpp" > /dev/null; then program=$PWD/pipelines/verification/faulty_stage.sh; fi
@@ -14,7 +15,7 @@ for program in "$bin"/*; do
 done
 echo test,stage,fault,outcome > "$folder/injected.csv"
 
-# A full disk is a small file system, which may be mounted in a name space of its own.
+# A full disk is simulated by a small file system, which may be mounted in a separate name space.
 private=()
 for try in -m -rm; do
   if unshare $try mount -t tmpfs none "$folder/finds" 2> /dev/null; then private=(unshare "$try") && break; fi

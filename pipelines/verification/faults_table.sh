@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# faults_table.sh RECORD…: how often each stage met each fault and bore it. Fails if one was not borne.
+# faults_table.sh RECORD…: counts how often each stage met and handled each fault. Fails if one was not handled.
 set -euo pipefail
 tables=()
 for record in "$@"; do tables+=("$(dirname "$record")/injected.csv"); done

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Stands in for a stage's program while faults.sh runs a test. The call is first made aside, in a copy of its output folder: once undisturbed,
-# then once for each fault. Nothing half made may then have a record, and the same call, given again, must end in the same bytes as the
-# undisturbed one. At last the call is made as the test meant it.
+# Replaces a stage's program while faults.sh runs a test. The call is first made in a copy of its output folder: once
+# undisturbed, then once for each fault. An incomplete result must then have no record, and the same call, repeated,
+# must end in the same bytes as the undisturbed one. Finally the call is made as the test intended.
 set -uo pipefail
 stage=$(basename "$0")
 program=$FAULTS_PROGRAMS/$stage
 args=() at=-1
-for word in "$@"; do [ "$word" = --if-changed ] || args+=("$word"); done # each call is to do its work
+for word in "$@"; do [ "$word" = --if-changed ] || args+=("$word"); done # without --if-changed, each call does its work
 for ((i = 0; i + 1 < ${#args[@]}; ++i)); do [ "${args[i]}" != --out ] || at=$((i + 1)); done
 [ "$at" -ge 0 ] || exec "$program" "$@"
 
@@ -14,11 +14,11 @@ aside=$(mktemp -d)
 trap 'umount "$place" 2> /dev/null; rm -rf "$aside"' EXIT
 before=$aside/before place=$aside/place clean=$aside/clean said=$aside/said.txt
 mkdir "$before"
-[ ! -d "${args[at]}" ] || cp -a "${args[at]}/." "$before" 2> /dev/null # others may be at work there
+[ ! -d "${args[at]}" ] || cp -a "${args[at]}/." "$before" 2> /dev/null # other processes may be writing there
 rm -rf "$before"/.[!.]*
 args[at]=$place
 
-# draw N: a number below N, by seed and call, in $drawn.
+# draw N: sets $drawn to a number below N, by seed and call.
 key="$FAULTS_SEED $stage ${*//"$PWD"/}" draws=0 drawn=0
 draw() {
   local hash
@@ -27,13 +27,13 @@ draw() {
   drawn=$((16#${hash:0:12} % $1))
 }
 fresh() { rm -rf "$place" && cp -a "$before" "$place"; }
-call() { # call [WRAPPER…]: its exit status in $status, what it says in $said
+call() { # call [WRAPPER…]: sets $status to its exit status, and writes its messages to $said
   "$@" "$program" "${args[@]}" 2>&1 < /dev/null | cat > "$said"
   status=${PIPESTATUS[0]}
 }
 same() { diff -rq --exclude='.*' --exclude='*.log' --exclude='*timings*' --exclude='*.failed.yaml' "$@"; }
 note() { echo "$FAULTS_TEST,$stage,$1,$2" >> "$FAULTS_FOLDER/injected.csv"; }
-bad() { # bad FAULT WHY: a find, with what shows it again
+bad() { # bad FAULT WHY: records a find, with the data that reproduce it
   note "$1" find
   local kept
   kept=$(mktemp -d "$FAULTS_FOLDER/finds/$stage-$1-XXXX")
@@ -41,7 +41,7 @@ bad() { # bad FAULT WHY: a find, with what shows it again
   { echo "# $2, exit status $status; call of $FAULTS_TEST in $PWD:"; printf '%q ' "$program" "${args[@]}"; echo; } > "$kept/command.txt"
   echo "faults: $stage, $1: $2 ($kept)" >> "$FAULTS_FOLDER/finds.txt"
 }
-borne() { # borne FAULT: nothing half made has a record, and the call completes it
+borne() { # borne FAULT: checks that no incomplete result has a record, and that the call completes it
   if [ -e "$place/$stage.yaml" ] && ! same "$place" "$clean" > /dev/null && ! same "$place" "$before" > /dev/null; then
     bad "$1" "a record stands over what is not whole"
     return
@@ -64,7 +64,7 @@ if [ "$status" = 0 ]; then
   call timeout -s KILL "$(printf '%d.%06d' $((drawn / 1000000)) $((drawn % 1000000 + 1)))"
   if [ "$status" = 137 ]; then borne kill; else note kill missed; fi
 
-  # A file ends in the middle of a write: the kernel takes what is left of the limit, then nothing more.
+  # A file ends in the middle of a write: the kernel writes the rest of the limit, then nothing more.
   largest=$(find "$clean" -type f -not -name '*.log' -printf '%s\n' | sort -n | tail -n 1)
   fresh
   draw "${largest:-1}"
@@ -90,7 +90,7 @@ if [ "$status" = 0 ]; then
     umount "$place"
   fi
 
-  # What earlier stages wrote, damaged: inputs with a record beside them, in copies.
+  # Damaged results of earlier stages: copies of inputs that have a record.
   roots=()
   for ((i = 0; i < ${#args[@]}; ++i)); do
     input=${args[i]}
@@ -98,7 +98,7 @@ if [ "$status" = 0 ]; then
     [ -d "$input" ] || input=$(dirname "$input")
     for record in "$input"/*.yaml; do
       if grep -qsx "stage: $(basename "$record" .yaml)" "$record"; then
-        [ "${args[i - 1]}" != --plan ] || input=$(dirname "$input") # a plan names the samples beside it
+        [ "${args[i - 1]}" != --plan ] || input=$(dirname "$input") # a plan refers to samples in its own folder
         roots+=("$input")
         break
       fi
@@ -106,7 +106,7 @@ if [ "$status" = 0 ]; then
   done
   if [ "${#roots[@]}" != 0 ]; then
     whole=("${args[@]}")
-    damaged() { # damaged: one file of one input with a bit flipped or its end cut off; the other inputs as they are
+    damaged() { # damaged: flips a bit or cuts off the end of one file of one input; other inputs stay
       draw "${#roots[@]}"
       local root=${roots[drawn]} files victim size
       rm -rf "$aside/input"
@@ -133,7 +133,7 @@ if [ "$status" = 0 ]; then
       call
       echo "damaged: ${victim#"$aside/input/"} of $root" >> "$said"
       if [ "$status" = 0 ]; then
-        # The record tells of all that is in a folder, read or not.
+        # The record covers everything in a folder, whether it is read or not.
         if same --exclude="$stage.yaml" "$place" "$aside/moved" >> "$said"; then note damaged missed; else bad damaged "it takes a damaged file"; fi
       elif [ "$status" -gt 2 ]; then bad damaged "it does not end with a message"
       elif ! head -n -1 "$said" | grep -qF -e "$(basename "$victim")" -e "$(basename "$(dirname "$victim")")" -e "$aside/input"; then

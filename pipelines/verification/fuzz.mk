@@ -11,7 +11,7 @@ FUZZ         := $(OUT)/fuzz/$(RUNS)
 FUZZ_RECORDS := $(FUZZED:%=$(FUZZ)/%/fuzz.yaml)
 .PHONY: fuzz build-fuzz
 
-# A build folder of its own: clang alone has libFuzzer.
+# A separate build folder, because only clang has libFuzzer.
 $(FUZZ_BUILD)/build.ninja: | packages $(OPENMESH_HEADERS)
 	@$(call configure,$(FUZZ_BUILD),--preset fuzz)
 build-fuzz: $(if $(filter no,$(REBUILD)),,$(FUZZ_BUILD)/build.ninja)

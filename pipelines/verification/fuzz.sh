@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# fuzz.sh PROGRAM READER RUNS FOLDER: one reader on RUNS random inputs, the same ones every time. What breaks it is kept in
-# FOLDER/finds, with the command that shows it again; the rest of the inputs follows with another seed. FOLDER/fuzz.yaml last.
+# fuzz.sh PROGRAM READER RUNS FOLDER: one reader on RUNS random inputs, the same ones every time. FOLDER/finds keeps
+# inputs that break it, with the command to reproduce them; the remaining inputs follow with another seed.
+# FOLDER/fuzz.yaml is written last.
 set -euo pipefail
 program=$1 reader=$2 runs=$3 folder=$4
 most_finds=10 # further ones are mostly the same
@@ -9,11 +10,11 @@ seeds=("tests/fuzz/corpus/$reader")
 
 rm -rf "$folder"
 mkdir -p "$folder/corpus" "$folder/finds"
-# Each input goes through a file: in memory, where the system has such a folder.
+# Each input goes through a file: in memory, if the system has such a folder.
 scratch=$(mktemp -d -p "$([ -w /dev/shm ] && echo /dev/shm || echo "${TMPDIR:-/tmp}")")
 trap 'rm -rf "$scratch"' EXIT
-# Freed memory that the sanitizer holds back counts as used. Traces of allocations are short: with long ones yaml is tried 220 times a second
-# instead of 370, and the command of a find prints them.
+# Freed memory that the sanitizer holds back counts as used. Traces of allocations are short: with long ones yaml is
+# tested 220 times a second instead of 370, and the command of a find prints them.
 export TMPDIR=$scratch ASAN_OPTIONS=quarantine_size_mb=32:allocator_may_return_null=0:malloc_context_size=3
 
 left=$runs finds=0 begin=$SECONDS

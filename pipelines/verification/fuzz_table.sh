@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# fuzz_table.sh TACIPC RECORD…: what fuzzing found, one line a reader. Fails if there is a find.
+# fuzz_table.sh TACIPC RECORD…: results of fuzzing, one line per reader. Fails if there is a find.
 set -euo pipefail
 tacipc=$1 total=0
 shift

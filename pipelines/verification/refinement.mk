@@ -1,4 +1,4 @@
-# One scene with mesh, time step, reach of the barrier and sticking threshold refined one after the other.
+# One scene in which mesh, time step, reach of the barrier and sticking threshold are refined one after the other.
 
 REFINEMENT := $(OUT)/refinement
 REFINEMENT_SCENE := configs/studies/refinement/sphere_shear.yaml

@@ -1,5 +1,6 @@
-# The default route against the one that factorises every linear system, over every mesh of SHARED in five poses on a gel of 12k
-# vertices: does each sample converge, and to the same answer? It resumes when interrupted; presses may run beside each other (JOBS).
+# Compares the default route with the one that factorises every linear system, over every mesh of SHARED in five poses
+# on a gel of 12k vertices: does each sample converge, and to the same result? An interrupted run resumes; presses may
+# run in parallel (JOBS).
 $(call uses,verification/bench sample/objects)
 
 ROUTES := $(OUT)/routes

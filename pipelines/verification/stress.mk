@@ -1,11 +1,11 @@
-# The stress campaign: N random cases of a seed, each with a folder and record of its own, then one page; that of 300 cases
-# of seed 1 is docs/stress.md. `campaign` does the same with ten thousand small cases, docs/campaign.md.
+# The stress campaign: N random cases of a seed, each with a folder and record of its own, then one page. The page of
+# 300 cases of seed 1 is docs/stress.md. `campaign` does the same with ten thousand small cases, docs/campaign.md.
 $(call uses,verification/verification)
 
 campaign_asked := $(filter campaign campaign-part,$(MAKECMDGOALS))
 grasps_asked := $(filter grasp-campaign,$(MAKECMDGOALS))
-SEED ?= 1#    of the random cases
-N    ?= $(if $(campaign_asked),10000,300)#  how many
+SEED ?= 1#    seed of the random cases
+N    ?= $(if $(campaign_asked),10000,300)#  number of cases
 override SEED := $(strip $(SEED))
 override N := $(strip $(N))
 part_asked := $(filter campaign-part,$(MAKECMDGOALS))
@@ -16,7 +16,7 @@ STRESS := $(OUT)/stress/$(filter-out stress-,$(STRESS_RANGES)-)$(SEED)
 STRESS_RECORD := $(STRESS)/first_$(N)/stress_table.yaml
 STRESS_CONFIG := configs/studies/stress/$(STRESS_RANGES).yaml
 
-# A crash leaves no record and no reason to stop: the page counts it. Only wrong ranges end the campaign.
+# A crash leaves no record but does not stop the campaign: the page counts it. Only wrong ranges end the campaign.
 $(STRESS)/case_%/stress_case.yaml: $(STRESS_CONFIG) | build-verification
 	@mkdir -p $(@D)
 	$(call try,stress_case,--config $< --seed $(SEED) --index $*)
@@ -35,7 +35,7 @@ endif
 
 STRESS_CASE_RECORDS := $(addsuffix /stress_case.yaml,$(STRESS_CASES))
 
-# The shell writes the names of the cases: ten thousand are too long for one command of make's.
+# The shell writes the names of the cases: ten thousand are too long for one command of make.
 $(STRESS_RECORD): $(STRESS_CASE_RECORDS) | build-verification
 	$(call run,stress_table,--seed $(SEED) --ranges $(STRESS_RANGES) $$(seq -f '--case $(STRESS)/case_%04.0f' 0 $$(($(N) - 1))))
 

@@ -1,16 +1,17 @@
-# The press against closed forms, measurements and other solvers: one folder and record per case, then one page. Campaigns that answer
-# one question each are long rows of the page; their goals are in refinement.mk, stress.mk and board3.mk.
+# Compares the press with closed forms, measurements and other solvers: one folder and record per case, then one page.
+# Campaigns that answer one question each are long rows of the page; their targets are in refinement.mk, stress.mk and
+# board3.mk.
 
 VERIFICATION := $(OUT)/verification
 VERIFICATION_CASES := $(sort $(basename $(notdir $(wildcard configs/studies/verification/*.yaml))))
 VERIFICATION_RESULTS := $(VERIFICATION_CASES:%=$(VERIFICATION)/%)
 
-# The long rows that this call makes; the page waits for them. Without SHARED board3 is skipped, as cases are.
+# Long rows that this call makes; the page waits for them. Without SHARED board3 is skipped, like cases.
 LONG_ROWS := $(filter closed-forms free-object refinement stress board3,$(MAKECMDGOALS) \
   $(if $(filter verification,$(MAKECMDGOALS)),closed-forms free-object refinement stress $(if $(wildcard $(SHARED)),board3)))
 LONG_RECORDS = $(CLOSED_FORMS_RECORD) $(FREE_OBJECT_RECORD) $(REFINEMENT_RECORD) $(STRESS_RECORD) $(BOARD3_RECORD)
 
-# Never built beside another build in the same folder.
+# Must not be built in parallel with another build in the same folder.
 .PHONY: build-verification build-closed-forms build-free-object
 build-verification: build | $(if $(filter build-all check check-slow,$(MAKECMDGOALS)),build-all)
 	@$(call compile,$(BUILD),verify verify_table stress_case stress_table refinement refinement_table marker_curve compare_simulators)
@@ -25,7 +26,8 @@ packages_for_verification := tests
 $(VERIFICATION)/%/verify.yaml: configs/studies/verification/%.yaml | build-verification
 	TACIPC_SHARED='$(SHARED)' $(call run,verify,--case $<)
 
-# $(call record_tests,record,program=filter …): runs tests of some programs, and says in a long row's record how many passed.
+# $(call record_tests,record,program=filter …): runs tests of some programs, and writes the number of passed tests to a
+# long row's record.
 define record_tests
 	mkdir -p $(dir $(1))
 	rm -f $(1) $(dir $(1))log.txt $(dir $(1))*.json
@@ -40,7 +42,7 @@ define record_tests
 	printf 'stage: %s\nsummary:\n  holds: %s\n  found: "%s"\n' $(basename $(notdir $(1))) $$holds "$$found" > $(1)
 endef
 
-# What is shown by tests, run every time.
+# Rows whose evidence is tests, which run every time.
 CLOSED_FORMS_RECORD := $(OUT)/closed_forms/closed_forms.yaml
 FREE_OBJECT_RECORD := $(OUT)/free_object/free_object.yaml
 .PHONY: closed-forms closed-forms-page free-object free-object-page
@@ -61,7 +63,8 @@ free-object: ## studies: Bodies against closed forms: flight, sliding, tipping, 
 free-object: free-object-page
 	$(call holds,$(FREE_OBJECT_RECORD))
 
-# $(call verification_table,folder,results,flags). A case that missed, failed or was skipped is run again next time: its record goes.
+# $(call verification_table,folder,results,flags). A case that missed, failed or was skipped runs again next time,
+# because its record is removed.
 define verification_table
 	TACIPC_SHARED='$(SHARED)' $(BIN)/verify_table --out $(1) --threads $(THREADS) $(addprefix --result ,$(2)) $(3)
 	while read -r folder; do rm -f "$$folder/verify.yaml"; done < $(1)/unfinished.txt
@@ -70,16 +73,17 @@ endef
 # $(call none_missed,record,keys): fails unless all of these numbers are 0.
 none_missed = @[ "$$($(BIN)/tacipc get $(1) $(2) | sort -u)" = 0 ] || { echo "$(1): cases missed" >&2; exit 1; }
 
-# What there is of the long rows, whichever call made it: a record, or why there is none.
+# Existing results of the long rows, from whichever call: a record, or the reason why there is none.
 long_rows_there = $$(for record in $(LONG_RECORDS) $(LONG_RECORDS:.yaml=.failed.yaml); do [ ! -e $$record ] || echo "--long $$record"; done)
 
-# $(call copy_tables,name,record): tables and plots of a long row, for the page to link to; nothing where its work failed.
+# $(call copy_tables,name,record): copies tables and plots of a long row to which the page links; does nothing if it
+# failed.
 define copy_tables
 	@mkdir -p $(DOCS)/verification
 	@[ ! -e $(2) ] || { cp $(dir $(2))tables.md $(DOCS)/verification/$(1).md; find $(dir $(2)) -name '*.svg' -exec cp {} $(DOCS)/verification/ ';'; }
 endef
 
-# The documentation shows the stress campaign of 300 cases of seed 1 only.
+# The documentation shows only the stress campaign of 300 cases of seed 1.
 .PHONY: verification verification-cases verification-page verify-case
 verification-page: $(addsuffix /verify.yaml,$(VERIFICATION_RESULTS)) | $(addsuffix -page,$(LONG_ROWS))
 	$(call verification_table,$(VERIFICATION)/page,$(VERIFICATION_RESULTS),--rows configs/studies/verification/table/long_rows.yaml $(long_rows_there))

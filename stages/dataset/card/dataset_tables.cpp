@@ -13,7 +13,7 @@ namespace tacipc {
 namespace fs = std::filesystem;
 namespace {
 
-/// A table that is written line by line.
+/// Table written line by line.
 class TableWriter {
  public:
   explicit TableWriter(const fs::path& path) : name_(path.string()), file_(path, std::ios::binary) {}
@@ -28,7 +28,7 @@ class TableWriter {
   std::ofstream file_;
 };
 
-/// One of a shard's tables, at the sample that the plan has reached.
+/// One of a shard's tables, at the current sample of the plan.
 class ShardTable {
  public:
   explicit ShardTable(const fs::path& path) : name_(path.string()), rows_(path) {}
@@ -44,8 +44,8 @@ class ShardTable {
   CsvReader rows_;
 };
 
-/// Tables of one shard, open from its first sample to its last: a plan fills one shard of each split after the other,
-/// and a process may have no more than some thousand files open.
+/// Tables of one shard, open from its first sample to its last. A plan fills the shards of each split one after the
+/// other, and a process can only have some thousand files open.
 class ShardTables {
  public:
   struct Tables {
@@ -58,7 +58,7 @@ class ShardTables {
 
   explicit ShardTables(const PackedShard& shard) : folder_(shard.folder), left_(shard.planned) {}
   bool begun() const { return begun_; }
-  /// The tables at the next sample. \throw DataError if there are no more
+  /// Tables at the next sample. \throw DataError if there are no more
   Tables& next(const std::string& id) {
     if (left_ == 0)
       throw DataError("{}: is of another plan: expected {} next (pack the shard again)",
@@ -68,7 +68,7 @@ class ShardTables {
     --left_;
     return *tables_;
   }
-  /// To be called when all of the sample is taken.
+  /// Closes the tables after the last sample; must be called when a sample is complete.
   void close_after_last() {
     if (left_ == 0) tables_.reset();
   }

@@ -32,12 +32,12 @@ const StageSpec kCard{
     .options = {{.flag = "--name", .help = "the dataset's name", .fallback = "dataset"}},
     .keeps_old_until_done = true};
 
-/// Names the outputs of which a user gets the digest.
+/// Names of the outputs whose digests are published.
 class Checksums {
  public:
   explicit Checksums(Stage& stage) : stage_(stage) {}
 
-  /// Like Stage::output; the digest is taken when all is written.
+  /// Like Stage::output; the digest is computed when everything is written.
   fs::path output(const std::string& name) {
     files_.emplace_back(name, stage_.output(name));
     return files_.back().second;
@@ -58,7 +58,7 @@ class Checksums {
   std::vector<std::pair<std::string, std::string>> lines_;
 };
 
-/// Copies, never links: a user of the project may edit a sensor file in place.
+/// Copies the files instead of linking them, because a user may edit a sensor file in place.
 void copy_origins(Stage& stage, Checksums& sums, const std::string& folder,
                   const std::map<std::string, std::map<std::string, OriginFile>>& origins) {
   std::vector<std::pair<std::string, fs::path>> inputs;
@@ -74,7 +74,7 @@ void copy_origins(Stage& stage, Checksums& sums, const std::string& folder,
   stage.add_inputs(inputs);
 }
 
-/// \throw DataError if one is not, byte for byte, what was packed
+/// Checks the shards. \throw DataError if one differs from the packed bytes
 void check_shards(const std::vector<PackedShard>& shards) {
   for (const PackedShard& shard : shards) {
     show_progress(static_cast<double>(&shard - shards.data()) / static_cast<double>(shards.size()), shard.name);

@@ -24,7 +24,7 @@ std::string size_text(double bytes) {
   return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
-/// Labels of grasps counted; nothing where there are none.
+/// Counts of the labels of grasps; empty without grasps.
 std::string outcomes_text(const DatasetCounts& counts) {
   if (counts.outcomes.empty()) return "";
   std::string text =
@@ -55,7 +55,7 @@ std::string ensemble_text(const ShardRecords& shards) {
       shards.ensemble, shards.members_pressed, shards.presses_missing);
 }
 
-/// Samples of each split, made and not made.
+/// Rows of each split with its made and unmade samples.
 std::string split_rows(const DatasetCounts& counts) {
   const auto of = [](const auto& all, const std::string& word) {
     const auto found = all.find("split");

@@ -1,4 +1,4 @@
-// The dataset card: everything a new user needs.
+// Writes the dataset card: all information for a new user.
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@
 
 namespace tacipc {
 
-/// Words of a dataset card.
+/// Texts of a dataset card.
 struct CardConfig {
   std::string purpose;
   std::string licence;
-  std::string contact;  // empty: none
-  std::string notes;    // empty: none; Markdown
+  std::string contact;  // empty: no contact
+  std::string notes;    // additional Markdown; empty: no notes
 
   static CardConfig read(ConfigReader& in) {
     return {.purpose = in.text("purpose"),
@@ -25,17 +25,18 @@ struct CardConfig {
   }
 };
 
+/// Inputs of the dataset card.
 struct CardContent {
   std::string name;
   CardConfig config;
   const ShardRecords& shards;
   const DatasetCounts& counts;
-  const Record& schema;  // of schema.json
+  const Record& schema;  // content of schema.json
   std::string loader;    // Python source
-  std::string citation;  // CITATION.cff, empty: none
+  std::string citation;  // content of CITATION.cff; empty: no citation
 };
 
-/// Markdown. The same content gives the same text.
+/// Dataset card as Markdown. The same content gives the same text.
 std::string dataset_card(const CardContent& content);
 
 }  // namespace tacipc

@@ -1,4 +1,4 @@
-// Labels of a press that an ensemble tells the uncertainty of: of the sample, of its members, of the coarser gel.
+// Labels of a press whose uncertainty an ensemble gives: for the sample, its members, and a coarser gel.
 #pragma once
 
 #include <filesystem>
@@ -15,15 +15,16 @@ namespace tacipc {
 
 enum class EnsembleLabel { press_force, tangential_force, torque, contact_area, deepest_indentation, object_depth };
 
-/// The labels of one press, SI but mm² of the area.
+/// Labels of one press, in SI units except the area in mm².
 class LabelledPress {
  public:
-  /// \param object_m vertices of the object in its own frame \throw DataError if the press is not finished
+  /// \param object_m vertices of the object in its own frame, m
+  /// \throw DataError if the press is not finished
   LabelledPress(std::filesystem::path folder, const Positions& object_m);
 
   std::size_t frames() const { return per_frame_.size(); }
   bool mount_gives_way() const { return arrays_.has(PressArray::holder_pose); }
-  /// One number, of torque three.
+  /// Value of a label: one number, for the torque three.
   std::vector<double> label(EnsembleLabel label, std::size_t frame) const;
 
  private:
@@ -34,24 +35,24 @@ class LabelledPress {
   Positions rest_m_;
 };
 
-/// What was pressed beside one sample. Standard deviations are those of a sample of n members, with n − 1.
+/// Presses of the ensemble for one sample. Standard deviations are sample deviations over n members, with n − 1.
 class EnsembleLabels {
  public:
-  /// \throw DataError if a press has other frames than the sample, or was dropped
+  /// \throw DataError if a press has other frames than the sample, or its files were dropped
   EnsembleLabels(const DatasetEnsemble& ensemble, const std::filesystem::path& sample_folder,
                  const std::filesystem::path& object_mesh);
   EnsembleLabels(const EnsembleLabels&) = delete;
   EnsembleLabels& operator=(const EnsembleLabels&) = delete;
 
   const std::vector<std::string>& made() const { return made_; }        // members that count
-  const std::vector<std::string>& missing() const { return missing_; }  // presses that failed, or are not there
+  const std::vector<std::string>& missing() const { return missing_; }  // presses that failed or are missing
   const DatasetEnsemble& ensemble() const { return ensemble_; }
 
-  /// Of the sample itself.
+  /// Label of the sample itself.
   std::vector<double> label(EnsembleLabel label, std::size_t frame) const { return sample_->label(label, frame); }
-  /// Nothing with fewer than two members.
+  /// Standard deviation over the members; nothing for fewer than two members.
   std::optional<std::vector<double>> sigma(EnsembleLabel label, std::size_t frame) const;
-  /// Of the same sensor in the members' mesh, minus that of the sample; nothing if that is not there.
+  /// Label of the same sensor in the members' mesh minus that of the sample; nothing if that press is missing.
   std::optional<std::vector<double>> mesh_difference(EnsembleLabel label, std::size_t frame) const;
   bool any_mount_gives_way() const;
 

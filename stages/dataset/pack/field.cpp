@@ -14,7 +14,7 @@
 namespace tacipc {
 namespace {
 
-/// Units of packed datasets, and how many of each one is of the unit that sources read: SI, but mm² and mm of poses.
+/// Units of packed datasets, with the factor from the unit of the sources: SI, but mm² and poses in mm.
 const std::map<std::string, double> kUnits{
     {"mm", kMmPerM},     {"mm/s", kMmPerM}, {"N", 1.0},        {"N mm", kNmmPerNm}, {"N/mm^2", kNPerMm2PerPa},
     {"deg", kDegPerRad}, {"rad/s", 1.0},    {"s", 1.0},        {"px", 1.0},         {"code", 1.0},
@@ -47,7 +47,8 @@ Field read_field(ConfigReader& in, Section section, const std::string& name, Fie
   return field;
 }
 
-/// Of a label of an ensemble: its standard deviation over the members, and its change with the members' mesh.
+/// Additional fields for a label of an ensemble: its standard deviation over the members, and its change with their
+/// mesh.
 std::vector<Field> spreads_of(const Field& label, const std::map<std::string, FieldSource>& sources) {
   Field sigma = label, mesh = label;
   sigma.name += "_sigma";
@@ -113,7 +114,7 @@ std::vector<std::size_t> shape_of(const FieldData& data) {
 std::string bytes_of(const Field& field, const FieldData& data) {
   if (const auto* image = std::get_if<ByteImage>(&data); image && field.type == NumberType::u8 && field.per_read == 1.0)
     return {image->pixels.begin(), image->pixels.end()};
-  // A few at a time: what all numbers of an image would take as doubles is no longer in the processor's cache.
+  // Few numbers at a time: all numbers of an image as doubles would exceed the processor's cache.
   constexpr std::size_t kAtOnce = 4096;
   std::string bytes;
   std::vector<double> values;

@@ -22,12 +22,12 @@ constexpr const char* kNoForces = "the press had left no contact forces when the
 constexpr const char* kNoStress = "the press file does not say stress: true";
 constexpr const char* kNoMarkers = "the press tracks no markers";
 
-/// Reason of a missing picture: a variant without rays of its own has only what light changes.
+/// Reason of a missing picture: a variant without rays of its own only has pictures that its light changes.
 std::string because(const SampleFrames& sample, const std::string& otherwise) {
   return sample.in_variant() ? "this variant is seen along the sensor's own rays: see obs of the sample" : otherwise;
 }
 
-/// Without a choice of maps render leaves out only what there is not.
+/// Without a choice of maps, render leaves out only maps that do not exist.
 std::string not_wanted_or(const SampleFrames& s, const char* reason) {
   return s.render().section("inputs").has("maps") ? fmt::format("{}, or {}", kNotWanted, reason) : reason;
 }
@@ -42,7 +42,7 @@ FieldSource of_image(FrameFile file, FieldReader read) { return {text_of(file), 
 
 FieldSource of_marker_px(FieldReader read) { return {"render: " + marker_px_field().file, std::move(read), true}; }
 
-/// Other codes for those of an image. \throw DataError if one of them has none
+/// Maps the values of an image. \throw DataError if one of them has no new value
 FieldData changed(FieldData data, double (*change)(double code)) {
   if (auto* image = std::get_if<ByteImage>(&data)) {
     std::array<std::optional<std::uint8_t>, 256> known;
@@ -63,7 +63,7 @@ FieldSource contact_image(FrameFile file, double (*change)(double code), std::st
   return source;
 }
 
-/// An image that depends on the camera's rays, so a variant with the sensor's own rays has none.
+/// Image that depends on the camera's rays; a variant with the sensor's own rays has none.
 FieldSource ray_image(FrameFile file) {
   return of_image(file, [=](SampleFrames& s, std::size_t f) { return s.image(f, file, because(s, kNotWanted)); });
 }
@@ -76,7 +76,7 @@ Numbers numbers_of(const Vector3& v) { return {{3}, {v.begin(), v.end()}}; }
 
 Numbers scalar(double value) { return {{}, {value}}; }
 
-/// Sum of these parts on each cell of a grid over the camera's window.
+/// Sum of these parts on each cell of a grid over the camera's field of view.
 Numbers grid_of(const SampleFrames& sample, std::size_t frame, const std::vector<Part>& parts, double factor) {
   const ContactParts traction = sample.arrays().tractions(frame);
   Positions sum = Positions::Zero(traction.normal.rows(), 3);
@@ -95,7 +95,7 @@ Numbers pose_numbers(const Matrix4& pose) {
   return {{7}, {at.x(), at.y(), at.z(), q.x(), q.y(), q.z(), q.w()}};
 }
 
-/// A number of each finger, by the forces and states on its front.
+/// Number of each finger, from the forces and states on its front.
 FieldSource of_fingers(double (*measure)(const FingerFront&)) {
   return {text_of(PressArray::contact_force) + ", " + field_of(PressArray::contact_state).file + " of both fingers",
           [=](SampleFrames& s, std::size_t f) {
@@ -140,7 +140,7 @@ FieldData marker_visible(SampleFrames& s, std::size_t f) {
   return px;
 }
 
-/// The packed code of a code of segment.png.
+/// Packed value of a value of segment.png.
 double packed_segment(double code) {
   const Segment seen = segment_of(code);
   if (seen == Segment::beside) return 2.0;
@@ -160,7 +160,7 @@ std::string slip_codes() {
                      static_cast<int>(slip));
 }
 
-/// They are absent if the dataset's maps or the sensor leave them out.
+/// Images; absent if the dataset's maps or the sensor leave them out.
 Sources images() {
   using enum FrameFile;
   return {
@@ -205,7 +205,7 @@ FieldSource nodal_force(Part part) {
                   [=](SampleFrames& s, std::size_t f) { return numbers_of(s.arrays().contact_forces(f).*part); });
 }
 
-/// Arrays of a press that was asked for stress.
+/// Arrays of a press with stress.
 FieldSource of_stress(PressArray array, Numbers (*read)(const PressFolder& press, std::size_t frame)) {
   return of_array(array, [=](SampleFrames& s, std::size_t f) -> FieldData {
     if (!s.arrays().has(array)) return Absent{kNoStress};
@@ -251,14 +251,14 @@ FieldSource object_twist(Vector3 Twist::*part) {
   });
 }
 
-/// A line of `per_frame` in the record of the press.
+/// Value of a line of `per_frame` in the record of the press.
 template <typename T>
 FieldSource press_line(T PressFrameLines::*number) {
   return {"press: record", [=](SampleFrames& s, std::size_t f) { return scalar(s.press_number(f, number)); }};
 }
 
-/// A line of `per_frame` in the record of the grasp, that of the sample's own finger; absent if the sample is no
-/// finger.
+/// Value of a line of `per_frame` in the record of the grasp, for the sample's own finger; absent for a sample that is
+/// not a finger.
 FieldSource finger_line(double GraspFrameLines::*left, double GraspFrameLines::*right) {
   return {"press: record of the grasp", [=](SampleFrames& s, std::size_t f) -> FieldData {
             if (!s.grasp()) return Absent{"no grasp"};
@@ -370,7 +370,7 @@ double slipping_force(const FingerFront& front) {
   return sum;
 }
 
-/// Of the grasp and of both of its fingers.
+/// Series of the grasp and of both of its fingers.
 Sources series() {
   return {{"time_s", frame_times()},
           {"phase", frame_phases()},
@@ -391,7 +391,7 @@ Sources series() {
                                   }}}};
 }
 
-/// Labels of the sample, their deviation, and their change with the members' mesh.
+/// Labels of the sample, their standard deviation, and their change with the members' mesh.
 Sources ensemble() {
   using enum EnsembleLabel;
   Sources all;

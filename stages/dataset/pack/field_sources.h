@@ -1,4 +1,4 @@
-// Sources of the fields of a packed dataset: each names the file of a sample and reads one frame of it.
+// Sources of the fields of a packed dataset: each names a file of a sample and reads one frame of it.
 #pragma once
 
 #include <map>
@@ -8,7 +8,7 @@
 
 namespace tacipc {
 
-/// Of every field of a section, by the field's name.
+/// Sources of all fields of a section, by field name.
 std::map<std::string, FieldSource> field_sources(Section section);
 
 }  // namespace tacipc

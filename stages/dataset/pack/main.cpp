@@ -37,7 +37,7 @@ struct ShardSample {
   std::optional<Failure> failure;
 };
 
-/// What the dataset has pressed beside its samples, if anything.
+/// Ensemble of the dataset, if it has one.
 std::optional<DatasetEnsemble> ensemble_of(Stage& stage) {
   const fs::path dataset = fs::absolute(stage.input("--plan")).parent_path().parent_path();
   auto ensemble = ensemble_of_dataset(dataset);
@@ -45,8 +45,8 @@ std::optional<DatasetEnsemble> ensemble_of(Stage& stage) {
   return ensemble;
 }
 
-/// The shard's part of the plan and what is there of it; the records that are become inputs.
-/// \param presses beside each sample
+/// Finds the shard's part of the plan and its existing samples, whose records become inputs.
+/// \param presses presses of the ensemble for each sample
 std::vector<ShardSample> find_samples(Stage& stage, const PackConfig& config, const std::vector<std::string>& presses) {
   const fs::path plan = stage.input("--plan");
   const fs::path dataset = fs::absolute(plan).parent_path().parent_path();
@@ -78,8 +78,8 @@ std::vector<ShardSample> find_samples(Stage& stage, const PackConfig& config, co
 }  // namespace
 
 int main(int argc, char** argv) {
-  // Images of every frame come and go. Handed back to the kernel each time, they would be cleared for each anew: a
-  // tenth of the time.
+  // Images of every frame are allocated and freed. If they returned to the kernel each time, it would clear them for
+  // each allocation: a tenth of the time.
   constexpr int kKept = 64 << 20;
   mallopt(M_MMAP_THRESHOLD, kKept);
   mallopt(M_TRIM_THRESHOLD, kKept);

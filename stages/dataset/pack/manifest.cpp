@@ -10,21 +10,21 @@ namespace tacipc {
 namespace fs = std::filesystem;
 namespace {
 
-/// Of the plan's columns all but the folder, which nobody has who gets the dataset.
+/// Visits all columns of the plan except the folder, which users of the dataset do not have.
 template <typename Use>
 void for_each_column(Use&& use) {
   for (const PlanColumn& column : plan_columns())
     if (column.value != &PlannedRow::folder) use(column);
 }
 
-/// What both kinds of sample have.
+/// Fields of both kinds of samples.
 std::vector<std::string> planned(const PlannedRow& plan) {
   std::vector<std::string> fields;
   for_each_column([&](const PlanColumn& column) { fields.push_back(plan.*column.value); });
   return fields;
 }
 
-/// Name of the grasp and of the finger; empty where a sample is none.
+/// Name of the grasp and of the finger; empty if a sample is neither.
 std::vector<std::string> planned_grasp(const PlannedRow& plan) {
   const fs::path folder = plan.folder;
   if (!is_finger(folder)) return {"", ""};
@@ -33,7 +33,7 @@ std::vector<std::string> planned_grasp(const PlannedRow& plan) {
 
 std::string number(double value) { return fmt::format("{}", value); }
 
-/// Labels and numbers of a grasp: a column each, and from its record. Empty where there is none.
+/// Columns of labels and numbers from the record of a grasp; empty without a grasp.
 constexpr const char* kGraspColumns[] = {"outcome",
                                          "reason",
                                          "first_slip_s",

@@ -1,4 +1,4 @@
-// What the samples of a shard were made from and by: sensors, gels, objects, programs, limits.
+// Origins of the samples of a shard: sensors, gels, objects, programs, limits.
 #pragma once
 
 #include <filesystem>
@@ -13,26 +13,27 @@
 
 namespace tacipc {
 
-/// Name of a sensor in the packed dataset: the plan's, and where the plan gives a sample a sensor file of its own (any
-/// but `<sensor>.yaml`) also the first eight digits of its hash.
+/// Name of a sensor in the packed dataset: that of the plan. If the plan gives a sample its own sensor file (other than
+/// `<sensor>.yaml`), the first eight digits of the file's hash are appended.
 std::string sensor_id_of(const PlannedRow& plan, const SampleFrames& sample);
 
+/// Collects the origins of a shard's samples.
 class Origins {
  public:
-  /// \throw DataError if two samples mean different files by one name
+  /// Adds a sample. \throw DataError if two samples use one name for different files
   void add(const PlannedRow& plan, const std::string& sensor_id, const SampleFrames& sample);
-  /// Lines `sensors`, `objects` (each with the paths and hashes of its files, as seen from `folder`, that of the
-  /// shard), `versions` and `limits` (each different one once).
+  /// Lines `sensors`, `objects` (each with the paths and hashes of its files, relative to `folder`, the shard's
+  /// folder), `versions` and `limits` (each distinct set once).
   Value::Map lines(const std::filesystem::path& folder) const;
-  /// Files of samples that the lines name as the shard's own, by the name in its folder: a sample's may be dropped once
-  /// it is packed, and the download is put together after that.
+  /// Files of samples that the shard stores as its own, by their names in its folder. A sample's files may be dropped
+  /// after packing, and the download is assembled after that.
   std::map<std::string, std::filesystem::path> copies() const;
 
  private:
   struct File {
     std::filesystem::path path;
     std::string hash;
-    std::string copy = {};  // its name among the shard's own files
+    std::string copy = {};  // name of the copy among the shard's own files
   };
   /// name → file's role → file
   using Files = std::map<std::string, std::map<std::string, File>>;
@@ -42,7 +43,7 @@ class Origins {
   Files sensors_;
   Files objects_;
   std::set<std::string> versions_;
-  std::map<std::string, Value::Map> limits_;  // by their text
+  std::map<std::string, Value::Map> limits_;  // distinct limits, by their text
 };
 
 }  // namespace tacipc

@@ -36,7 +36,7 @@ PackConfig PackConfig::read(ConfigReader& in) {
   config.variants = in.flag_or("variants", false);
   config.list_unmade = in.choice_or("unmade", "refuse", {"refuse", "list"}) == "list";
   for (const Section section : kSections) {
-    // What judges a sample, and what labels follow from, is never left out.
+    // Fields for verdicts and labels are never left out.
     if (section != Section::obs && section != Section::sim) {
       for (const Field& field : fields())
         if (field.section == section) config.packed.push_back(&field);

@@ -11,13 +11,13 @@ namespace tacipc {
 namespace fs = std::filesystem;
 namespace {
 
-/// Frame of which this output is the tactile image; nothing of others and of variants.
+/// Frame whose tactile image this output is; nothing for other outputs and for variants.
 std::optional<std::size_t> pictured_frame(const fs::path& output) {
   if (output.filename() != field_of(FrameFile::tactile).file) return std::nullopt;
   return frame_number(output.parent_path().string());
 }
 
-/// Files of a dataset that was packed once may have been removed since, records excepted.
+/// Checks that no files of the sample were removed after an earlier packing; records always stay.
 fs::path refuse_dropped(fs::path folder) {
   for (const std::string stage : {"press", "render"})
     if (fs::exists(folder / stage / ".dropped"))
@@ -47,7 +47,7 @@ SampleFrames::SampleFrames(fs::path folder)
                           Extents{{kFrames, per_frame_.size()}});
   }
   const Record press_inputs = press_.section("inputs"), render_inputs = render_.section("inputs");
-  // What shows and what is measured must be of the same press.
+  // Images and measurements must belong to the same press.
   if (render_inputs.section("press").required_text("hash") != content_hash(folder_ / "press"))
     throw DataError("{}: the images were made of another press than the one that is there", folder_.string());
   const fs::path sensor = press_input("sensor");

@@ -1,4 +1,4 @@
-// A finished sample, read frame by frame: what press and render left, checked against their records.
+// Reads a finished sample frame by frame: results of press and render, checked against their records.
 #pragma once
 
 #include <filesystem>
@@ -20,33 +20,33 @@
 
 namespace tacipc {
 
-/// Numbers of one frame, row-major, in SI or codes.
+/// Numbers of one frame, row-major, in SI units or 8-bit values.
 struct Numbers {
   std::vector<std::size_t> shape;
   std::vector<double> values;
 };
 
-/// Contact on the front of a finger in one frame: of each vertex the length of the normal force (N) and the state.
+/// Contact on the front of a finger in one frame: for each vertex the length of the normal force (N) and the state.
 struct FingerFront {
   Eigen::VectorXd normal_n;
   std::vector<ContactState> states;
 };
 
-/// Why a field is not there.
+/// Reason why a field is missing.
 struct Absent {
   std::string reason;
 };
 
 using FieldData = std::variant<Numbers, FloatImage, ByteImage, Absent>;
 
-/// Pictures are read from `picture_folder`, a variant's or empty for the sensor itself.
+/// Frames of a sample. Pictures come from the folder of the variant set by look_at; empty: from the sensor itself.
 class SampleFrames {
  public:
-  /// \throw DataError if a record is missing or malformed, the image was made of another press or with another sensor,
-  /// or there is no image of frame 0
+  /// \throw DataError if a record is missing or malformed, the images belong to another press or sensor, or frame 0 has
+  /// no image
   explicit SampleFrames(std::filesystem::path folder);
 
-  /// Frames of the press that have images, ascending, the first is 0: frame i of the packed sample is frames()[i].
+  /// Frames of the press that have images, ascending, starting with 0. Frame i of the packed sample is frames()[i].
   const std::vector<std::size_t>& frames() const { return frames_; }
   std::size_t press_frames() const { return per_frame_.size(); }
   const std::vector<std::string>& variants() const { return variants_; }
@@ -56,20 +56,20 @@ class SampleFrames {
   const Record& press() const { return press_; }
   const Record& render() const { return render_; }
   const std::filesystem::path& folder() const { return folder_; }
-  /// The file that press was given with a flag ("sensor", "gel", "object", "sample").
+  /// File passed to press by a flag ("sensor", "gel", "object", "sample").
   std::filesystem::path press_input(const std::string& flag) const;
-  /// Text of a configuration that press or render was given. \throw DataError if it has changed since
+  /// Text of a configuration that press or render used. \throw DataError if it has changed since
   std::string config_text(const std::string& stage, const std::string& flag) const;
   const Sensor& sensor() const { return sensor_; }
 
-  /// Channels of a frame's image, or Absent with `reason` where there is no such file.
+  /// Channels of a frame's image; Absent with `reason` if there is no such file.
   FieldData image(std::size_t frame, FrameFile file, const std::string& reason);
-  /// (markers, 2) column and row.
+  /// Column and row of each marker, shape (markers, 2).
   FieldData marker_px(std::size_t frame, const std::string& reason);
-  /// The arrays of the press.
+  /// Arrays of the press.
   const PressFolder& arrays() const { return arrays_; }
   RecordLines<PressSummary> press_summary() const { return summary_of<PressSummary>(press_); }
-  /// The record of the grasp that the sample is a finger of.
+  /// Record of the grasp of which the sample is a finger.
   const std::optional<Record>& grasp() const { return grasp_; }
   /// \pre grasp()
   RecordLines<GraspSummary> grasp_summary() const { return summary_of<GraspSummary>(*grasp_); }
@@ -77,15 +77,15 @@ class SampleFrames {
   RecordLines<SlipLines> slip() const {
     return grasp_summary().section(is_right_finger() ? &GraspSummary::slip_right : &GraspSummary::slip_left);
   }
-  /// A number of the frame in that record. \pre grasp()
+  /// A number of the frame in the grasp's record. \pre grasp()
   template <typename T>
   double grasp_number(std::size_t frame, T GraspFrameLines::*number) const {
     return grasp_per_frame_[frame].number(number);
   }
   bool is_right_finger() const { return folder_.filename() == "right"; }
-  /// The arrays of the grasp. \pre grasp()
+  /// Arrays of the grasp. \pre grasp()
   const ArrayFolder& grasp_arrays() const { return *grasp_arrays_; }
-  /// Of the left (0) or right (1) finger of the grasp. \pre grasp()
+  /// Contact of the left (0) or right (1) finger of the grasp. \pre grasp()
   FingerFront finger_front(std::size_t side, std::size_t frame) const;
   /// A number of the frame in the press's record.
   template <typename T>
@@ -96,12 +96,12 @@ class SampleFrames {
   std::optional<double> find_press_number(std::size_t frame, T PressFrameLines::*number) const {
     return per_frame_[frame].find(number);
   }
-  /// Adds what an ensemble has pressed beside the sample. \throw DataError as EnsembleLabels
+  /// Adds the presses of an ensemble for this sample. \throw DataError as EnsembleLabels
   void add_ensemble(const DatasetEnsemble& ensemble);
   /// \pre add_ensemble
   const EnsembleLabels& ensemble() const { return *ensemble_; }
   bool has_ensemble() const { return ensemble_ != nullptr; }
-  /// Triangles of the front over its vertices.
+  /// Triangles of the front, as indices of its own vertices.
   Numbers front_triangles();
 
  private:

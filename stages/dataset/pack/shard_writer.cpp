@@ -13,7 +13,7 @@
 namespace tacipc {
 namespace {
 
-/// Datasets with smaller frames lie in one piece: a chunk each would cost more than it holds.
+/// Datasets with smaller frames are contiguous: a chunk for each frame would cost more than it holds.
 constexpr std::size_t kSmallestChunk = 2048;
 
 std::size_t count_of(const std::vector<std::size_t>& shape) {

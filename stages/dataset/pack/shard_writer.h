@@ -1,4 +1,4 @@
-// One HDF5 file of samples, written a frame at a time.
+// Writes one HDF5 file of samples, a frame at a time.
 #pragma once
 
 #include <filesystem>
@@ -12,18 +12,19 @@
 
 namespace tacipc {
 
-/// What one sample tells beside its arrays, in the order of the group's attributes.
+/// Attributes of a sample's group, in their order.
 Value::Map sample_attributes(const PlannedRow& plan, const std::string& sensor_id, const SampleFrames& sample);
 
+/// Writes the samples of a shard, one after the other.
 class ShardWriter {
  public:
-  /// `root`: attributes of the file.
+  /// \param root attributes of the file
   ShardWriter(const std::filesystem::path& path, const PackConfig& config, const Value::Map& root);
 
-  /// Camera of a sensor, under /sensors/<id>.
+  /// Adds the camera of a sensor under /sensors/<id>.
   void add_sensor(const std::string& id, const Value::Map& camera);
   void add_sample(const PlannedRow& plan, const std::string& sensor_id, SampleFrames& sample);
-  /// The lists of ids and what is known only at the end.
+  /// Writes the lists of ids and everything known only at the end, and closes the file.
   void close();
 
   std::size_t samples() const { return ids_.size(); }
@@ -36,7 +37,7 @@ class ShardWriter {
   const PackConfig& config_;
   Hdf5Writer file_;
   std::vector<std::string> ids_;
-  std::vector<std::pair<std::string, std::string>> splits_;  // list, id
+  std::vector<std::pair<std::string, std::string>> splits_;  // pairs of list and id
   std::vector<std::pair<std::string, Value::Map>> sensors_;
   std::size_t frames_ = 0;
 };

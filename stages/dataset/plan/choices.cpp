@@ -24,7 +24,7 @@ fs::path beside(const fs::path& file, const std::string& name) {
   return (file.parent_path() / name).lexically_normal();
 }
 
-/// Sensors and photographs that variants of render name. What else they hold is the business of render.
+/// Sensors and photographs that variants of render name. Render itself checks the rest.
 std::vector<ChosenFile> files_of_variants(const fs::path& render) {
   std::vector<ChosenFile> files;
   ConfigReader in = ConfigReader::from_file(render);
@@ -65,7 +65,7 @@ bool later(const timespec& a, const timespec& b) {
   return std::tie(a.tv_sec, a.tv_nsec) > std::tie(b.tv_sec, b.tv_nsec);
 }
 
-/// The time that a choice gets instead of the `old` one; none: now.
+/// Time of a choice that replaces the `old` one; nothing: now.
 std::optional<timespec> time_of_change(const timespec& old, const std::map<std::string, ChosenContent>& before,
                                        const std::map<std::string, ChosenContent>& after) {
   timespec time = old;
@@ -81,8 +81,8 @@ std::optional<timespec> time_of_change(const timespec& old, const std::map<std::
   return time;
 }
 
-/// Gels of an ensemble that are none of the dataset's own. What members change of the sensor is a file that the gel
-/// depends on.
+/// Adds gels of an ensemble that the dataset does not use itself. Changes of the sensor by members are in a file on
+/// which the gel depends.
 void add_members(const DatasetConfig& config, const EnsembleChoice& ensemble, std::vector<Choice>& choices) {
   std::set<std::string> known;
   for (const Choice& choice : choices) known.insert(choice.name);

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads one dataset file; names and paths met so far are kept for the checks.
+/// Reads one dataset file, and collects names and paths for the checks.
 class Reader {
  public:
   Reader(ConfigReader& in, DatasetConfig& config)
@@ -39,7 +39,7 @@ class Reader {
   }
 
  private:
-  /// What a path in the configuration means, if make and the shell take its name for one word.
+  /// Resolves a path of the configuration; make and the shell must accept it as one word.
   fs::path resolved(ConfigReader& in, const std::string& key, const fs::path& given) {
     fs::path path = given.lexically_normal();
     check_path(in, key, path);
@@ -53,7 +53,7 @@ class Reader {
 
   fs::path file(ConfigReader& in, const std::string& key) { return resolved(in, key, folder_ / in.text(key)); }
 
-  /// The same, or one of ours where the key is absent.
+  /// Resolves a path, or the default `ours` if the key is absent.
   fs::path file_or(ConfigReader& in, const std::string& key, const fs::path& ours) {
     const std::string given = in.text_or(key, ours.string());
     return resolved(in, key, in.has(key) ? folder_ / given : ours);
@@ -64,7 +64,7 @@ class Reader {
       in.fault(key, fmt::format("'{}' {}", path.generic_string(), kPlainPathRule));
   }
 
-  /// Names are parts of a sample's: joined by two underscores, they must not hold these themselves.
+  /// Checks a part of a sample's name. Parts are joined by two underscores, so they must not contain these.
   void check_part(ConfigReader& in, const std::string& key, const std::string& name) {
     if (!is_file_name(name)) return in.fault(key, fmt::format("'{}': {}", name, kFileNameRule));
     if (name.find("__") != std::string::npos || name.front() == '_' || name.back() == '_')
@@ -95,7 +95,7 @@ class Reader {
     ObjectChoice choice{.name = "", .file = "", .embossed = emboss, .spec = {.unit = "m", .up = "-z"}};
     if (!emboss) {
       choice.spec = ObjectSpec::read(item);
-      // Objects of a dataset are the same in all of its sensors, so no window decides.
+      // Objects of a dataset are the same in all of its sensors, so no field of view can decide.
       if (choice.spec.fit_window) item.fault("scale", "fit is for one sensor; give a number");
       if (choice.spec.height_field && choice.spec.height_field->side == SideConfig::kMostRelief)
         item.fault("height_field", "most_relief is for one sensor; name a side");

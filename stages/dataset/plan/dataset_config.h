@@ -1,4 +1,4 @@
-// A dataset as one file: sensors, objects, motions, how samples are drawn and split, what is kept.
+// Configuration of a dataset in one file: sensors, objects, motions, sampling, splits, and the files to keep.
 #pragma once
 
 #include <filesystem>
@@ -16,16 +16,16 @@ namespace tacipc {
 
 /// A sensor and the mesh of its gel.
 struct SensorChoice {
-  std::string name;  // of the sensor's file
-  std::string mesh;  // of the mesh's file
+  std::string name;  // name of the sensor's file
+  std::string mesh;  // name of the mesh's file
   std::filesystem::path sensor;
   std::filesystem::path mesh_config;
-  std::optional<std::filesystem::path> import = std::nullopt;  // a finished mesh, for kind: import
+  std::optional<std::filesystem::path> import = std::nullopt;  // finished mesh, for kind: import
 
   std::string gel() const { return name + "-" + mesh; }
 };
 
-/// An object: an embossed pattern or a mesh of the user's.
+/// An object: an embossed pattern, or a mesh of the user.
 struct ObjectChoice {
   std::string name;
   std::filesystem::path file;
@@ -33,32 +33,33 @@ struct ObjectChoice {
   ObjectSpec spec = {};
 };
 
-/// A motion of which each object makes `samples` in each sensor.
+/// A motion, of which each object gets `samples` samples in each sensor.
 struct MotionChoice {
   std::string name;
   int samples = 1;
-  std::filesystem::path press;  // numerics
+  std::filesystem::path press;  // press configuration
   MotionTemplate motion;
 };
 
-/// Members of an ensemble that press every sample of its sensor, too.
+/// Members of an ensemble that also press every sample of its sensor.
 struct EnsembleChoice {
-  Ensemble ensemble;  // no more members than are pressed
+  Ensemble ensemble;  // ensemble without the members that are not pressed
   std::filesystem::path file;
-  std::optional<std::filesystem::path> mesh_config = std::nullopt;  // of the gels of members; absent: the sample's
+  std::optional<std::filesystem::path> mesh_config =
+      std::nullopt;  // mesh of the members' gels; absent: the mesh of the sample
 
-  /// Whether samples of this sensor are pressed by members.
+  /// True if members press the samples of this sensor.
   bool is_of(const SensorChoice& sensor) const;
   /// Name of the mesh of the members' gels, and of the gel of a press (DatasetEnsemble::presses).
   std::string mesh_of(const SensorChoice& sensor) const;
   std::string gel_of(const SensorChoice& sensor, const std::string& press) const;
-  /// Its sensor file, as the make rules name it.
+  /// Sensor file of a member, as the make rules name it.
   static std::string sensor_file(const SensorChoice& sensor, const std::string& member);
-  /// What pack has to know of it.
+  /// Ensemble in the form that pack reads.
   DatasetEnsemble planned(const std::vector<SensorChoice>& sensors) const;
 };
 
-/// Shares of objects, and of poses, that validation and test have; objects may also be named.
+/// Fractions of objects, and of poses, in validation and test; objects may also be named.
 struct Splits {
   double val = 0.0;
   double test = 0.0;
@@ -66,10 +67,11 @@ struct Splits {
   std::vector<std::string> test_objects = {};
 };
 
-/// configs/datasets/*.yaml. Paths in it are relative to the file; here they are as seen from where the stage runs.
+/// Content of configs/datasets/*.yaml. Paths in it are relative to the file; here they are relative to the folder in
+/// which the stage runs.
 struct DatasetConfig {
   int seed = 0;
-  bool low_discrepancy = true;  // else independent random numbers
+  bool low_discrepancy = true;  // true: low-discrepancy sequence; false: independent random numbers
   std::vector<SensorChoice> sensors = {};
   std::vector<ObjectChoice> objects = {};
   std::vector<MotionChoice> motions = {};
@@ -79,12 +81,12 @@ struct DatasetConfig {
   std::optional<EnsembleChoice> ensemble = std::nullopt;
   Splits splits;
   double shard_bytes = 1e9;
-  std::string pack = "full";           // profile that a finished run packs with, or none
-  std::vector<std::string> keep = {};  // stages whose files stay once the dataset is packed
-  int stop_after_failures = 10;        // in a row
+  std::string pack = "full";           // profile with which a finished run packs, or none
+  std::vector<std::string> keep = {};  // stages whose files remain after the dataset is packed
+  int stop_after_failures = 10;        // number of successive failures that stops a run
 
   static DatasetConfig read(ConfigReader& in);
-  /// Files and folders that the configuration names: when one changes, the plan may be another.
+  /// files and folders that the configuration names; a change of one may change the plan
   std::vector<std::filesystem::path> named = {};
 };
 

@@ -29,7 +29,7 @@ std::vector<Sensor> read_sensors(Stage& stage, const DatasetConfig& config) {
   return sensors;
 }
 
-/// What samples are expected to take in a shard, by sensor and motion.
+/// Expected size of a sample in a shard, by sensor and motion.
 std::vector<std::vector<double>> packed_bytes(Stage& stage, const DatasetConfig& config,
                                               const std::vector<Sensor>& sensors) {
   stage.add_input("render", config.render);
@@ -47,7 +47,7 @@ std::vector<std::vector<double>> packed_bytes(Stage& stage, const DatasetConfig&
   return bytes;
 }
 
-/// Every key with the value in force.
+/// Text with every key and its value, including defaults.
 std::string resolved_text(const std::filesystem::path& file) {
   ConfigReader in = ConfigReader::from_file(file);
   DatasetConfig::read(in);
@@ -88,7 +88,7 @@ int main(int argc, char** argv) {
                      {"motions", config.motions.size()},
                      {"split_by_object", split_lines(by_object)},
                      {"split_by_pose", split_lines(count(samples, &PlannedSample::split_pose))}});
-    stage.retire_old_record();  // the samples' files are not outputs, and from here on those of another plan
+    stage.retire_old_record();  // the samples' files are not outputs, and from here on they belong to another plan
     const int written = write_dataset_files(config, choices, samples, stage.out().parent_path());
     log_info("{} samples of {} objects, {} motions, {} sensors; {} new or changed", samples.size(),
              config.objects.size(), config.motions.size(), config.sensors.size(), written);

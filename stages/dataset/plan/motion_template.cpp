@@ -16,10 +16,10 @@ constexpr int kMaxSteps = 100000;
 const std::vector<std::string> kKinds{"press", "shear", "twist", "tilt", "hold", "release", "load", "free", "path"};
 const std::vector<std::string> kGraspKinds{"close", "lift", "shake", "hold", "release"};
 
-/// Six digits: finer than any of these lengths and angles can be set, and short to read.
+/// Six digits: finer than any real setting of these lengths and angles, and short to read.
 std::string number_text(double value) { return fmt::format("{:.6g}", value); }
 
-/// Lines that are not blank, from the first that begins as a number does: before it is a heading.
+/// Number of nonblank lines from the first one that begins like a number; earlier lines are headings.
 int rows_of(const std::filesystem::path& file) {
   constexpr std::string_view kNumeric = "0123456789.+-";
   const std::string text = read_file(file);
@@ -116,7 +116,7 @@ PhaseTemplate PhaseTemplate::read_of_grasp(ConfigReader& in) {
 
 namespace {
 
-/// A vector of the object: a list of numbers, or a map of those of x, y, z that may have ranges.
+/// Reads a vector of the object: a list of numbers, or a map of x, y, z whose numbers may have ranges.
 std::vector<PhaseTemplate::Number> read_vector(ConfigReader& in, const std::string& key) {
   std::vector<PhaseTemplate::Number> numbers;
   if (in.has(key) && !in.is_list(key)) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr long long kMaxSamples = 999999;  // an index has six digits
 
-/// Whether the centre of an object always lies on the gel.
+/// True if the centre of an object always lies on the gel.
 bool on_gel(const MotionTemplate& motion, const GelShape& gel) {
   for (const double x : {motion.center_x_mm.low, motion.center_x_mm.high})
     for (const double y : {motion.center_y_mm.low, motion.center_y_mm.high})

@@ -1,4 +1,4 @@
-// Checks of a plan before anything runs.
+// Checks a plan before anything runs.
 #pragma once
 
 #include <string>
@@ -9,8 +9,10 @@
 
 namespace tacipc {
 
-/// Faults that no single key has: more samples or ranges than there can be, presses deeper than a gel is thick, objects
-/// placed beside it. `sensors` are those of the configuration, read; `file` names it in the messages.
+/// Errors that concern several keys: more samples or ranges than possible, presses deeper than a gel is thick, objects
+/// placed next to the gel instead of on it.
+/// \param sensors sensors of the configuration, already read
+/// \param file name of the configuration in messages
 std::vector<std::string> faults_of_plan(const DatasetConfig& config, const std::vector<Sensor>& sensors,
                                         const std::string& file);
 

@@ -21,10 +21,10 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-/// What follows `samples/`.
+/// Part of the path after `samples/`.
 std::string place_of(const std::string& folder) { return folder.substr(8); }
 
-/// Files that render reads for a gel, but its settings.
+/// Files that render reads for a gel, without its settings.
 std::string files_of_render(const std::vector<Choice>& choices, const SensorChoice& sensor) {
   std::vector<std::string> files;
   for (const Choice& choice : choices)
@@ -34,7 +34,7 @@ std::string files_of_render(const std::vector<Choice>& choices, const SensorChoi
   return joined(files);
 }
 
-/// Gels of the members, and for each gel of samples the presses beside them, each with its gel.
+/// Gels of the members, and for each gel of samples the additional presses, each with its gel.
 std::string ensemble_mk(const DatasetConfig& config, const EnsembleChoice& choice) {
   std::string text;
   std::set<std::string> known;
@@ -89,7 +89,7 @@ std::string dataset_mk(const DatasetConfig& config, const std::vector<Choice>& c
   return text;
 }
 
-/// Files and folders that the plan depends on.
+/// Prerequisites of the plan: files and folders.
 std::set<fs::path> inputs_of(const DatasetConfig& config, const std::vector<Choice>& choices) {
   std::set<fs::path> paths(config.named.begin(), config.named.end());
   for (const Choice& choice : choices)
@@ -103,7 +103,7 @@ std::string inputs_txt(const std::set<fs::path>& inputs) {
   return text;
 }
 
-/// Missing files are a matter of the plan, which says so better than make.
+/// Missing files are left to the plan, whose message is clearer than make's.
 std::string inputs_mk(const std::set<fs::path>& inputs) {
   std::string text = "$(DATASET_DIR)/plan/plan.yaml:", rules;
   for (const fs::path& path : inputs) {
@@ -113,7 +113,7 @@ std::string inputs_mk(const std::set<fs::path>& inputs) {
   return "# Made by the stage plan.\n" + text + "\n" + rules;
 }
 
-/// Path files that a motion follows.
+/// Path files of a motion.
 std::string paths_of(const MotionChoice& motion) {
   std::string text;
   for (const PhaseTemplate& phase : motion.motion.phases)
@@ -121,7 +121,7 @@ std::string paths_of(const MotionChoice& motion) {
   return text;
 }
 
-/// Seeds of the renders of a sample, or of both fingers of the grasp that it belongs to.
+/// Seeds of the renders of a sample, or of both fingers of its grasp.
 std::string seeds_of(const std::vector<PlannedSample>& samples, const PlannedSample& sample) {
   if (!sample.finger) return std::to_string(sample.seed);
   const auto left = static_cast<std::size_t>(sample.index - *sample.finger);

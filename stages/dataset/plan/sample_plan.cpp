@@ -15,8 +15,8 @@ constexpr double kGoldenRatio = 0.6180339887498949;
 
 double fraction(double x) { return x - std::floor(x); }
 
-/// Objects of each split: those named, then by hash as many as the share asks for (one at least, where three or more
-/// are left to choose from).
+/// Split of each object: first the named objects, then by hash as many as the fraction requires (at least one if three
+/// or more objects are left).
 std::vector<Split> object_splits(const DatasetConfig& config) {
   const Splits& splits = config.splits;
   std::vector<Split> of(config.objects.size(), Split::train);
@@ -45,8 +45,8 @@ std::vector<Split> object_splits(const DatasetConfig& config) {
   return of;
 }
 
-/// Repetition r of a motion lies at fraction(u + r / golden ratio) of [0, 1), of which test has the lowest part and val
-/// the next: as even as a count allows, whatever the count becomes. [Weyl 1916]
+/// Split of a pose. Repetition r of a motion lies at fraction(u + r / golden ratio) of [0, 1); test has the lowest part
+/// and val the next. The distribution is as even as possible for every number of repetitions. [Weyl 1916]
 Split pose_split(const DatasetConfig& config, int motion, int repetition) {
   const double start = random_uniform(seed_of(static_cast<std::uint64_t>(config.seed), "pose split"),
                                       hash_of(config.motions[static_cast<std::size_t>(motion)].name), 0);
@@ -142,7 +142,7 @@ std::string path_name(const DatasetConfig& config, int motion, int phase) {
 
 std::string sample_yaml(const DatasetConfig& config, const PlannedSample& sample) {
   const MotionTemplate& motion = config.motions[static_cast<std::size_t>(sample.motion)].motion;
-  // The gel is not part of the name, and decides which press belongs to it.
+  // The gel is not part of the name, but decides which press belongs to the sample.
   return fmt::format("# {} in gel {}, seed {}\n", sample.id,
                      config.sensors[static_cast<std::size_t>(sample.sensor)].gel(), sample.seed) +
          motion.sample_yaml([&](int d) { return drawn_number(config, sample, d); },

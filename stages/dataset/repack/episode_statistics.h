@@ -1,4 +1,4 @@
-// Statistics of a column of a LeRobot dataset: of each episode for meta/episodes, of all frames for meta/stats.json.
+// Statistics of a column of a LeRobot dataset: per episode for meta/episodes, over all frames for meta/stats.json.
 #pragma once
 
 #include <array>
@@ -12,19 +12,20 @@
 
 namespace tacipc {
 
+/// Collects the statistics of one column.
 class EpisodeStatistics {
  public:
   EpisodeStatistics(std::string name, std::size_t width, bool image)
       : name_(std::move(name)), total_(width), image_(image) {}
 
-  /// Statistics of one episode, to be filled frame by frame.
+  /// Empty statistics of one episode, to be filled frame by frame.
   FeatureStatistics begin_episode() const { return FeatureStatistics(total_.width()); }
   void end_episode(const FeatureStatistics& episode);
 
-  /// Columns `stats/<name>/<statistic>` with a row for each episode: lists of the column's width, of images (channels,
-  /// 1, 1); `count`, the frames, is a list of one.
+  /// Appends columns `stats/<name>/<statistic>` with a row for each episode: lists of the column's width, for images
+  /// (channels, 1, 1); `count`, the number of frames, is a list of one.
   void append_columns(std::vector<ParquetColumn>& columns, std::vector<ParquetValues>& values) const;
-  /// Statistics of all frames, under the column's name.
+  /// Statistics over all frames, with the column's name.
   std::pair<std::string, Value> lines() const;
 
  private:

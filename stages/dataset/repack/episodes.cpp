@@ -17,15 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a field must be.
+/// Required form of a field.
 struct FieldForm {
   const char* name;
-  std::vector<std::size_t> frame;                 // extents of a frame; kAny where it may have any number, but one
-  std::optional<NumberType> type = std::nullopt;  // else reals
+  std::vector<std::size_t> frame;                 // shape of a frame; kAny for any nonzero extent
+  std::optional<NumberType> type = std::nullopt;  // absent: any real type
 };
 constexpr std::size_t kAny = 0;
 
-/// The fields that episodes are made of, as schema.yaml of pack has them.
+/// Fields of episodes, as in pack's schema.yaml.
 const std::vector<FieldForm> kObs{{"rgb", {kAny, kAny, 3}, NumberType::u8},
                                   {"rgb_marker", {kAny, kAny, 3}, NumberType::u8},
                                   {"indentation_mm", {kAny, kAny}},
@@ -40,10 +40,10 @@ const std::vector<FieldForm> kObs{{"rgb", {kAny, kAny, 3}, NumberType::u8},
                                   {"time_s", {}},
                                   {"phase", {}, NumberType::u8},
                                   {"frame", {}, NumberType::i32}};
-/// Of a grasp, all of them.
+/// Fields of a grasp; all are required.
 const std::vector<FieldForm> kSeries{{"time_s", {}}, {"hand_pose", {7}}, {"finger_pose", {2, 7}}, {"object_pose", {7}}};
 
-/// \throw DataError if a field in the group has another form, or not so many frames
+/// Checks a field. \throw DataError if it has another form, or another number of frames
 void check_form(const Hdf5Reader& shard, const std::string& group, const FieldForm& form, std::size_t frames) {
   const std::string path = fmt::format("{}/{}", group, form.name);
   const std::vector<std::size_t> shape = shard.shape(path);
@@ -59,7 +59,7 @@ void check_form(const Hdf5Reader& shard, const std::string& group, const FieldFo
                   wanted, form.type ? name_of(*form.type) : "reals");
 }
 
-/// Finite numbers, each greater than the one before.
+/// Reads finite, strictly ascending numbers.
 std::vector<double> times_of(const Hdf5Reader& shard, const std::string& path) {
   std::vector<double> times_s = from_bytes(shard.type(path), shard.read(path));
   for (std::size_t t = 0; t < times_s.size(); ++t)
@@ -68,7 +68,7 @@ std::vector<double> times_of(const Hdf5Reader& shard, const std::string& path) {
   return times_s;
 }
 
-/// Train before val before test, by the shards' names; within a split by name.
+/// Sorts shards: train, val, test by the shards' names, and by name within a split.
 void sort_by_split(std::vector<fs::path>& shards) {
   const auto rank = [](const fs::path& shard) {
     const std::string name = shard.filename().string();
@@ -81,7 +81,7 @@ void sort_by_split(std::vector<fs::path>& shards) {
 
 bool is_finger(const Hdf5Reader& shard, const std::string& sample) { return shard.has(sample + "/series"); }
 
-/// Finds the right finger of a grasp, whatever shard it is in.
+/// Finds the right finger of a grasp in any shard.
 class RightFingers {
  public:
   /// \throw DataError if a file is not a shard
@@ -99,7 +99,8 @@ class RightFingers {
     }
   }
 
-  /// Appends the right finger of the grasp whose left one is `id`; false if that is not a left finger, or alone.
+  /// Appends the right finger of the grasp whose left finger is `id`. \return false if that is not a left finger, or
+  /// has no partner
   bool add(const std::string& id, std::vector<SampleAt>& samples) {
     const auto found = at_.find(id);
     if (found == at_.end()) return false;
@@ -117,7 +118,7 @@ class RightFingers {
   using Open = std::pair<std::size_t, Hdf5Reader>;
 
   const std::vector<fs::path>& shards_;
-  std::map<std::string, std::pair<std::size_t, std::string>> at_;  // by the grasp: shard and group
+  std::map<std::string, std::pair<std::size_t, std::string>> at_;  // shard and group, by grasp
   std::unique_ptr<Open> open_;
   std::size_t fingers_ = 0, paired_ = 0;
 };

@@ -1,4 +1,4 @@
-// Samples of packed shards as episodes: one of each sample, and one of both fingers of a grasp.
+// Reads samples of packed shards as episodes: one per sample, and one for both fingers of a grasp.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace tacipc {
 
-/// A sample in its shard; `group` is its group there, "/data/<id>".
+/// Sample in its shard; `group` is its group there, "/data/<id>".
 struct SampleAt {
   const Hdf5Reader& shard;
   std::string group;
@@ -23,25 +23,25 @@ struct SampleAt {
   }
 };
 
-/// A sample, or the left and the right finger of a grasp.
+/// Episode of a sample, or of the left and the right finger of a grasp.
 class Episode {
  public:
-  /// \param id of the sample, or of the left finger, which is the grasp's
-  /// \throw DataError if the fingers of a grasp have images of different frames, or no times, or a field that episodes
-  /// are made of has another type or shape than pack gives it
+  /// \param id id of the sample, or of the left finger, which is also the grasp's
+  /// \throw DataError if the fingers of a grasp have images of different frames or no times, or a field of episodes
+  /// does not have the type and shape that pack gives it
   Episode(std::string id, std::vector<SampleAt> samples);
 
   const std::string& id() const { return id_; }
   std::size_t frames() const { return frames_; }
-  /// \throw DataError if `time_s` is not packed
+  /// Times of the frames, s. \throw DataError if `time_s` is not packed
   const std::vector<double>& times_s() const;
   const SampleAt& sample(std::size_t finger = 0) const { return samples_[finger]; }
   bool is_grasp() const { return samples_.size() == 2; }
-  /// The sensor, and "_grasp" behind it for fingers: what episodes with the same fields have in common.
+  /// Kind of episodes with the same fields: the sensor, followed by "_grasp" for fingers.
   std::string kind() const;
-  /// An attribute of the sample, or of the left finger.
+  /// Attribute of the sample, or of the left finger.
   std::string text(const std::string& attribute) const;
-  /// The same of one that names a file or folder.
+  /// Attribute that names a file or folder, reduced to its name.
   std::string name_of(const std::string& attribute) const;
   /// Numbers of a field of `series` in a frame of the episode. \pre is_grasp()
   std::vector<double> series(const std::string& field, std::size_t frame) const;
@@ -51,17 +51,18 @@ class Episode {
   std::vector<SampleAt> samples_;
   std::size_t frames_ = 0;
   std::vector<double> times_s_;
-  std::vector<std::size_t> rows_;  // of `series`, of each frame
+  std::vector<std::size_t> rows_;  // row of `series` for each frame
 };
 
-/// Where to write a file of this name.
+/// Gives the path at which to write a file of this name.
 using OutputPath = std::function<std::filesystem::path(const std::string& name)>;
 
 /// Takes an episode and the number of the shard that holds it, or its left finger.
 using TakeEpisode = std::function<void(std::size_t shard, const Episode& episode)>;
 
-/// All episodes, shards of train before val before test, and in each by the names of shards and samples. Fingers of a
-/// grasp may be in two shards; one whose other finger is in none is left out. \return how many are
+/// Visits all episodes: shards of train, val and test in that order, sorted by the names of shards and samples. Fingers
+/// of a grasp may be in two shards; a finger whose partner is in no shard is left out.
+/// \return number of fingers left out
 /// \throw DataError if a file is not a shard
 std::size_t for_each_episode(std::vector<std::filesystem::path> shards, const TakeEpisode& take);
 

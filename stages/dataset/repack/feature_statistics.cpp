@@ -9,16 +9,16 @@ namespace {
 
 constexpr std::array kQuantiles{0.01, 0.10, 0.50, 0.90, 0.99};
 constexpr std::uint32_t kSign = 0x80000000U;
-constexpr int kDropped = 8;  // bits of the mantissa
+constexpr int kDropped = 8;  // dropped bits of the mantissa
 
-/// Ascends with the number.
+/// Key that ascends with the number.
 std::uint32_t key_of(double number) {
   const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(number + 0.0));  // −0 becomes 0
   const std::uint32_t kept = bits >> kDropped << kDropped;
   return kept & kSign ? ~kept : kept | kSign;
 }
 
-/// The number of the key that is nearest to 0.
+/// Number nearest to 0 with this key.
 double number_of(std::uint32_t key) {
   return static_cast<double>(std::bit_cast<float>(key & kSign ? key ^ kSign : ~key));
 }

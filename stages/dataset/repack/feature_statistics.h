@@ -1,4 +1,4 @@
-// Statistics of a feature over frames, as LeRobot keeps them for a dataset and for each episode.
+// Statistics of a feature over frames, as LeRobot stores them for a dataset and for each episode.
 #pragma once
 
 #include <array>
@@ -10,17 +10,17 @@
 
 namespace tacipc {
 
-/// Names of the statistics that FeatureStatistics::values returns, in its order.
+/// Names of the results of FeatureStatistics::values, in its order.
 inline constexpr std::array kStatistics{"min", "max", "mean", "std", "q01", "q10", "q50", "q90", "q99"};
 
-/// Statistics of one number over all times it was seen; numbers that are not finite do not count.
+/// Statistics of one number over all its occurrences; values that are not finite do not count.
 class NumberStatistics {
  public:
   void add(double number, std::int64_t times = 1);
   void add(const NumberStatistics& other);
 
-  /// kStatistics; all 0 if no number was seen. A quantile q is the smallest number that at least q of all do not
-  /// exceed, found to 2^-15 of itself.
+  /// Values of kStatistics; all 0 without numbers. A quantile q is the smallest number that at least a fraction q of
+  /// all numbers do not exceed, with a relative resolution of 2^-15.
   std::array<double, kStatistics.size()> values() const;
 
  private:
@@ -29,7 +29,7 @@ class NumberStatistics {
   double least_ = std::numeric_limits<double>::infinity(), greatest_ = -least_;
   double mean_ = 0.0, squares_ = 0.0;  // Welford's sums
   std::int64_t count_ = 0;
-  /// How often numbers were seen that agree in sign, exponent and 15 bits of the mantissa; the keys ascend with them.
+  /// Counts of numbers that agree in sign, exponent and 15 bits of the mantissa; keys have the order of the numbers.
   std::unordered_map<std::uint32_t, std::int64_t> counts_;
 };
 
@@ -40,13 +40,13 @@ class FeatureStatistics {
 
   void add_frame(std::span<const double> values);
   void add_frame(std::span<const float> values);
-  /// Codes of a picture as parts of 255.
+  /// Adds 8-bit values of a picture, divided by 255.
   void add_frame(std::span<const std::uint8_t> codes);
   void add(const FeatureStatistics& other);
 
   std::size_t width() const { return of_.size(); }
   std::int64_t frames() const { return frames_; }
-  /// kStatistics of each number.
+  /// Values of kStatistics for each number.
   std::array<std::vector<double>, kStatistics.size()> values() const;
 
  private:

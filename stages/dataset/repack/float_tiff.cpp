@@ -13,7 +13,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-/// Each row as its bytes of highest order, then those of the next, each byte as the difference from the one before.
+/// Each row as its bytes of highest order, then the next order, and so on; each byte as the difference from the
+/// previous.
 std::string predicted(std::span<const float> pixels, int width, int height) {
   constexpr std::size_t kBytes = sizeof(float);
   const auto columns = static_cast<std::size_t>(width);
@@ -57,18 +58,18 @@ std::string float_tiff_bytes(std::span<const float> pixels, int width, int heigh
   const auto size = static_cast<std::uint32_t>(strip.size());
   const std::vector<Tag> tags{{256, kLong, static_cast<std::uint32_t>(width)},
                               {257, kLong, static_cast<std::uint32_t>(height)},
-                              {258, kShort, 32},                                 // bits of a number
+                              {258, kShort, 32},                                 // bits per number
                               {259, kShort, 8},                                  // deflate
                               {262, kShort, 1},                                  // 0 is black
-                              {273, kLong, kHeader},                             // where the strip begins
-                              {277, kShort, 1},                                  // numbers a pixel
-                              {278, kLong, static_cast<std::uint32_t>(height)},  // rows of a strip
+                              {273, kLong, kHeader},                             // offset of the strip
+                              {277, kShort, 1},                                  // numbers per pixel
+                              {278, kLong, static_cast<std::uint32_t>(height)},  // rows per strip
                               {279, kLong, size},
                               {317, kShort, 3},   // floating-point predictor
                               {339, kShort, 3}};  // IEEE numbers
   std::string bytes = "II";
   append<std::uint16_t>(bytes, 42);
-  const std::uint32_t directory = kHeader + size + size % 2;  // on an even byte
+  const std::uint32_t directory = kHeader + size + size % 2;  // even offset
   append(bytes, directory);
   bytes += strip;
   bytes.resize(directory, '\0');
@@ -77,7 +78,7 @@ std::string float_tiff_bytes(std::span<const float> pixels, int width, int heigh
     append(bytes, tag.tag);
     append(bytes, tag.type);
     append<std::uint32_t>(bytes, 1);
-    append(bytes, tag.value);  // of shorts the first two bytes count
+    append(bytes, tag.value);  // for shorts only the first two bytes count
   }
   append<std::uint32_t>(bytes, 0);
   return bytes;

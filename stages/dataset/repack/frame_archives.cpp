@@ -10,7 +10,7 @@
 namespace tacipc {
 namespace {
 
-/// The first line of `form` that `other` does not have; both are sorted.
+/// First line of `form` that `other` lacks; both are sorted.
 const std::string* line_missing_in(const std::vector<std::string>& other, const std::vector<std::string>& form) {
   for (const std::string& line : form)
     if (!std::ranges::binary_search(other, line)) return &line;

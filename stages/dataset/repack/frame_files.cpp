@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kLargestInJson = 16;
 
-/// Attributes that a sample has or has not by how it went, whatever its kind.
+/// Attributes that depend on the course of a sample, not on its kind.
 constexpr const char* kSometimes[] = {"reason", "first_slip_s", "gross_slip_s", "friction_margin", "width_mm"};
 
 bool every_sample_has(const std::string& attribute) {
@@ -25,7 +25,7 @@ bool every_sample_has(const std::string& attribute) {
          std::ranges::find(kSometimes, attribute) == std::end(kSometimes);
 }
 
-/// Name of the file that a configuration becomes; nothing for other attributes.
+/// File name of an attribute that is a configuration; empty for other attributes.
 std::string configuration_file(const std::string& attribute) {
   for (const std::string ending : {"yaml", "csv"})
     if (attribute.ends_with("_" + ending))
@@ -38,7 +38,7 @@ std::string lower(std::string name) {
   return name;
 }
 
-/// "real", "text", "3 of real".
+/// Type such as "real", "text", "3 of real".
 std::string type_of(const Value& value) {
   if (std::holds_alternative<bool>(value.data())) return "bool";
   if (std::holds_alternative<std::int64_t>(value.data())) return "whole";

@@ -1,4 +1,4 @@
-// A sample of a shard as small files: what a folder and a WebDataset archive hold.
+// Sample of a shard as small files, for folders and WebDataset archives.
 #pragma once
 
 #include <functional>
@@ -10,45 +10,44 @@
 
 namespace tacipc {
 
-/// Takes a file by the name of what it belongs to ("frame_0003", or nothing for the sample itself), its own name behind
-/// the first dot ("rgb.png") and its bytes.
+/// Takes a file: the name of its frame ("frame_0003", or empty for the sample itself), its own name behind the first
+/// dot ("rgb.png"), and its bytes.
 using TakeFile = std::function<void(const std::string& of, const std::string& name, std::string_view bytes)>;
 
-/// Names are in lower case, as every reader of WebDatasets has them.
+/// Files of one sample. Names are in lower case, as every reader of WebDatasets expects.
 class SampleFiles {
  public:
-  /// \throw DataError if two names differ in case alone, one cannot be a file's, or a field has not as many frames as
-  /// the sample
+  /// \throw DataError if two names differ only in case, a name cannot be a file name, or a field does not have as many
+  /// frames as the sample
   SampleFiles(const Hdf5Reader& shard, const std::string& id);
 
   const std::string& id() const { return id_; }
-  /// Samples of a kind have the same files in every frame, with the same keys and types of JSON: `<sensor>`,
-  /// `<sensor>_free` with the velocities of an object that moves freely, `<sensor>_grasp` with what fingers of grasps
-  /// have besides.
+  /// Kind of the sample. Samples of a kind have the same files in every frame, with the same JSON keys and types. Kinds
+  /// are `<sensor>`, `<sensor>_free` with the velocities of an object that moves freely, and `<sensor>_grasp` with the
+  /// additional data of grasp fingers.
   std::string kind() const;
-  /// The files of a frame and the keys of its JSON, with types and shapes.
+  /// Files of a frame and keys of its JSON, with types and shapes.
   std::vector<std::string> form() const;
 
-  /// Files of each frame
-  /// - `<field>.png` for images of codes, `<field>.npy` for other fields of more than 16 numbers or with NaN; of `sim`
-  ///   and of variants `sim.<field>.…`, `<variant>.<field>.…`
+  /// Writes the files of each frame:
+  /// - `<field>.png` for 8-bit images, `<field>.npy` for other fields of more than 16 numbers or with NaN; for `sim`
+  /// and for variants `sim.<field>.…`, `<variant>.<field>.…`
   /// - `json` with the other fields and, under `sample`, the attributes that every sample of the kind has.
   void write_frames(const TakeFile& take) const;
-  /// Files of the sample: `json` with all its attributes, the configurations that it was made with (`<name>.yaml`), and
-  /// as
-  /// `<section>.<field>.npy` the fields that are not of frames: series, parts of `sim`, and `ensemble`.
+  /// Writes the files of the sample: `json` with all its attributes, its configurations (`<name>.yaml`), and as
+  /// `<section>.<field>.npy` the fields that are not per frame: series, parts of `sim`, and `ensemble`.
   void write_sample(const TakeFile& take) const;
-  /// Adds the attributes of fields that `fields` does not have.
+  /// Adds the attributes of fields that `fields` lacks.
   void describe(Value::Map& fields) const;
 
  private:
-  /// A dataset of a sample and the name its files have.
+  /// Dataset of a sample, and the name of its files.
   struct Field {
     std::string path;
     std::string key;    // "rgb", "sim.first_slip_s", "white.rgb"
-    std::string group;  // of the JSON: "obs", "check"
+    std::string group;  // group in the JSON: "obs", "check"
     NumberType type = NumberType::f32;
-    std::vector<std::size_t> shape = {};  // of a frame; of all if it is not of frames
+    std::vector<std::size_t> shape = {};  // shape of a frame; of the whole dataset if it is not per frame
     bool of_frames = true, has_nan = false;
 
     std::size_t numbers() const;
@@ -63,11 +62,11 @@ class SampleFiles {
   std::string id_, sample_;
   std::size_t frames_ = 0;
   std::vector<Field> fields_;
-  Value::Map attributes_, of_all_;                          // all; those that every sample of the kind has
+  Value::Map attributes_, of_all_;  // all attributes, and those that every sample of the kind has
   std::vector<std::pair<std::string, std::string>> texts_;  // configurations, by the names of their files
 };
 
-/// What one needs to read the files: the attributes of the shard, of its sensors and of each field.
+/// JSON needed to read the files: the attributes of the shard, of its sensors and of each field.
 std::string fields_json(const Hdf5Reader& shard);
 
 }  // namespace tacipc

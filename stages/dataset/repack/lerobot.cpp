@@ -24,12 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What every LeRobot dataset has, in this order behind ours.
+/// Columns of every LeRobot dataset, in this order after the features.
 constexpr const char* kIndices[] = {"frame_index", "episode_index", "index", "task_index"};
 
-const Value kNull = std::numeric_limits<double>::quiet_NaN();  // as JSON writes it
+const Value kNull = std::numeric_limits<double>::quiet_NaN();  // null in JSON
 
-/// A dataset of episodes that have the same features.
+/// Dataset of episodes that have the same features.
 class Dataset {
  public:
   Dataset(std::string name, const OutputPath& output) : name_(std::move(name)), output_(output) {}
@@ -68,7 +68,7 @@ class Dataset {
     total_frames_ += length;
   }
 
-  /// A shard is a file; a dataset of many sensors would have one open for each.
+  /// Ends the file of a shard; otherwise a dataset of many sensors would have one open file for each.
   void end_shard() {
     if (data_) data_->close();
     data_.reset();
@@ -129,7 +129,7 @@ class Dataset {
   }
 
   void look_at_times(const Episode& episode) {
-    constexpr double kSame = 1e-3;  // of a step
+    constexpr double kSame = 1e-3;  // fraction of a step
     const std::vector<double>& times_s = episode.times_s();
     for (std::size_t t = 1; t < times_s.size() && !uneven_; ++t)
       if (std::abs((times_s[t] - times_s[t - 1]) * fps_ - 1.0) > kSame) uneven_ = episode.id();
@@ -159,7 +159,7 @@ class Dataset {
     return columns;
   }
 
-  /// Statistics of a column that counts: `timestamp` and the indices.
+  /// Counts a column in the statistics: `timestamp` and the indices.
   void count(std::size_t c, const ParquetValues& column) {
     FeatureStatistics episode = statistics_[c].begin_episode();
     const auto add = [&](const auto& numbers) {
@@ -232,7 +232,7 @@ class Dataset {
     file.close();
   }
 
-  /// Pandas reads this file, and takes the text as the index only if the footer says so.
+  /// Pandas reads this file. It takes the text as the index only if the footer says so.
   void write_tasks() const {
     std::vector<std::string> texts(tasks_.size());
     std::vector<std::int64_t> numbers;
@@ -291,7 +291,7 @@ class Dataset {
                       {"features", features}};
   }
 
-  /// Ranges of episodes, "train": "0:20".
+  /// Ranges of episodes, such as "train": "0:20".
   Value splits() const {
     Value::Map ranges;
     for (std::size_t e = 0, first = 0; e < splits_.size(); ++e) {
@@ -304,7 +304,7 @@ class Dataset {
     return ranges;
   }
 
-  /// What the hub's viewer and Hugging Face's `datasets` read of the footer.
+  /// Features in the footer, which the hub's viewer and Hugging Face's `datasets` read.
   Value hub_features() const {
     const auto value = [](const char* type) { return Value(Value::Map{{"dtype", type}, {"_type", "Value"}}); };
     Value::Map features;
@@ -322,15 +322,15 @@ class Dataset {
     return Value::Map{{"info", Value::Map{{"features", features}}}};
   }
 
-  static constexpr std::int64_t kChunk = 1000;  // files in a folder
+  static constexpr std::int64_t kChunk = 1000;  // files per folder
 
   std::string name_;
   const OutputPath& output_;
   std::vector<Feature> features_;
-  std::vector<std::vector<std::size_t>> extents_, shapes_;  // of each feature as packed, and as written
-  std::vector<EpisodeStatistics> statistics_;               // of each column
+  std::vector<std::vector<std::size_t>> extents_, shapes_;  // shapes of each feature as packed, and as written
+  std::vector<EpisodeStatistics> statistics_;               // statistics of each column
   double fps_ = 0.0;
-  std::optional<std::string> uneven_;  // the first sample whose frames are not 1/fps_ apart
+  std::optional<std::string> uneven_;  // first sample whose frames are not 1/fps_ apart
   std::unique_ptr<ParquetWriter> data_;
   std::int64_t file_ = -1, total_frames_ = 0;
   std::map<std::string, std::int64_t> tasks_;

@@ -1,4 +1,4 @@
-// Shards as LeRobot datasets, format v3.0: Parquet tables with images inside, and JSON beside them.
+// Writes shards as LeRobot datasets, format v3.0: Parquet tables with images inside, and JSON files.
 #pragma once
 
 #include <filesystem>
@@ -10,10 +10,11 @@
 
 namespace tacipc {
 
-/// A dataset `<kind>/{meta,data}` for each kind of episode (Episode::kind): phases of the motion are the task, shards
-/// the data files, in the order train, val, test, so that splits are ranges of episodes. Features and units are those
-/// of lerobot_features, as far as the shards have their fields. Returns what the record says of each. \throw DataError
-/// for shards whose episodes of one kind differ in fields or shapes
+/// Writes a dataset `<kind>/{meta,data}` for each kind of episode (Episode::kind). The phases of the motion are the
+/// task. Shards are the data files, in the order train, val, test, so that splits are ranges of episodes. Features and
+/// units are those of lerobot_features, if the shards have their fields.
+/// \return lines of the record for each dataset
+/// \throw DataError if the episodes of one kind differ in fields or shapes
 Value::Map write_lerobot(std::vector<std::filesystem::path> shards, const OutputPath& output);
 
 }  // namespace tacipc

@@ -16,7 +16,7 @@ const std::vector<const char*> kPoseNames{"x", "y", "z", "qx", "qy", "qz", "qw"}
 const std::vector<const char*> kHandNames{"x", "y", "z", "qx", "qy", "qz", "qw", "opening"};
 constexpr const char* kPoseUnit = "m, unit quaternion";
 
-/// Features of one sensor; `suffix` and `finger` of a grasp.
+/// Features of one sensor; `suffix` and `finger` are for grasps.
 std::vector<Feature> of_sensor(const std::string& suffix, std::size_t finger) {
   using enum FeatureRule;
   std::vector<Feature> features{
@@ -60,7 +60,7 @@ void to_metres(std::vector<double>& pose) {
   for (std::size_t i = 0; i < 3; ++i) pose[i] *= kMetres;
 }
 
-/// Pose of the hand, and the distance between the undeformed fronts of its fingers.
+/// Pose of the hand, and the distance between its fingers' undeformed fronts.
 std::vector<double> hand_of(const Episode& episode, std::size_t frame) {
   std::vector<double> state = episode.series("hand_pose", frame);
   const std::vector<double> fingers = episode.series("finger_pose", frame);

@@ -1,4 +1,4 @@
-// Features of LeRobot datasets: their names and units, and their numbers out of packed samples.
+// Features of LeRobot datasets: names, units, and their computation from packed samples.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace tacipc {
 
-/// How a feature comes from its field.
+/// Rule by which a feature is computed from its field.
 enum class FeatureRule {
   picture,
   depth,
@@ -24,28 +24,29 @@ enum class FeatureRule {
   object
 };
 
+/// One feature of an episode's frames.
 struct Feature {
   std::string name;
-  std::string field;  // of `obs`; for hand, next_hand and object of `series`
+  std::string field;  // field of `obs`; for hand, next_hand and object a field of `series`
   FeatureRule rule;
-  std::vector<const char*> names = {};  // of the numbers; of all axes for images; of the last axis if flat
+  std::vector<const char*> names = {};  // names of the numbers; of all axes for images; of the last axis if flat
   const char* unit = "";
   std::size_t finger = 0;
 
   bool is_image() const { return rule == FeatureRule::picture || rule == FeatureRule::depth; }
-  /// Rows of equal numbers one after the other: LeRobot's tools cannot write lists of lists.
+  /// True if rows of equal size follow each other in one list: LeRobot's tools cannot write lists of lists.
   bool is_flat() const { return rule == FeatureRule::flat || rule == FeatureRule::displacement; }
   bool in(const Episode& episode) const;
-  /// Extents of the field in a frame, as LeRobot counts those of images.
+  /// Shape of the field in a frame, in LeRobot's order for images.
   std::vector<std::size_t> extents(const Episode& episode) const;
-  /// The numbers of a frame in the feature's unit. \pre not is_image()
+  /// Numbers of a frame in the feature's unit. \pre not is_image()
   std::vector<double> frame(const Episode& episode, std::size_t frame) const;
 };
 
-/// "press star, then shear"; the motion's name if the shard does not have the phases.
+/// Task text such as "press star, then shear"; the motion's name if the shard does not have the phases.
 std::string task_of(const Episode& episode);
 
-/// The one table of names and units: of episodes of one sensor, and of grasps.
+/// The only table of names and units: for episodes of one sensor, or for grasps.
 const std::vector<Feature>& lerobot_features(bool grasp);
 
 }  // namespace tacipc

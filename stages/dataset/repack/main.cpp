@@ -24,7 +24,7 @@ const StageSpec kRepack{
                 .required = false}},
     .works_in_child = true};
 
-/// All shards of a dataset, as episodes.
+/// Writes all shards of a dataset as episodes.
 void repack_episodes(Stage& stage, const std::string& format) {
   if (stage.optional_input("--shard") || !stage.optional_input("--shards"))
     throw UsageError(fmt::format("{} takes --shards, the list of all shards, in place of --shard", format));
@@ -52,7 +52,7 @@ struct RepackConfig {
   }
 };
 
-/// A shard as archives, or as a folder of files for each sample; \return how many files.
+/// Writes a shard as archives, or as a folder of files for each sample. \return number of files
 std::size_t repack_files(Stage& stage, const Hdf5Reader& shard, const std::string& name, bool archives) {
   const OutputPath output = [&](const std::string& file) { return stage.output(file); };
   std::optional<FrameArchives> tars;
@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
     if (config.format == "lerobot" || config.format == "univtac") return repack_episodes(stage, config.format);
     if (!stage.optional_input("--shard") || stage.optional_input("--shards"))
       throw UsageError("this layout takes --shard, one shard; only lerobot and univtac take --shards");
-    checked_sha256(stage.input("--shard"));  // HDF5 crashes on some damaged files, and reads others as if whole
+    checked_sha256(stage.input("--shard"));  // HDF5 crashes on some damaged files and misreads others
     const Hdf5Reader shard(stage.input("--shard"));
     if (!shard.has("/data")) throw DataError("{}: is not a shard of pack", stage.input("--shard").string());
     const std::string name = shard.name_attribute("/", "shard");

@@ -1,4 +1,4 @@
-// Tar archives (POSIX pax) whose bytes depend on their content alone.
+// Writes tar archives (POSIX pax) whose bytes depend on their content alone.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,13 @@ struct archive;
 
 namespace tacipc {
 
-/// Files have no owner and the time 0. Any fault is a DataError that names the archive.
+/// Archive whose files have no owner and the time 0. Every error is a DataError that names the archive.
 class TarWriter {
  public:
   explicit TarWriter(const std::filesystem::path& path);
 
   void add(const std::string& name, std::string_view bytes);
-  /// Writes the rest. \throw DataError if that fails (a full disk)
+  /// Writes the remaining data. \throw DataError if that fails (a full disk)
   void close();
 
  private:

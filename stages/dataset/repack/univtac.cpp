@@ -19,17 +19,17 @@ struct Renamed {
 constexpr Renamed kPictures[] = {{"rgb", "rgb"}, {"rgb_marker", "rgb_marker"}};
 constexpr Renamed kMaps[] = {{"depth", "camera_depth_mm"}, {"press_depth", "indentation_mm"}, {"marker", "marker_px"}};
 
-/// Poses as UniVTAC has them.
-using Poses = std::vector<double>;  // 7 a frame
+/// Poses in UniVTAC's order.
+using Poses = std::vector<double>;  // 7 numbers per frame
 
-/// x, y, z in mm and qx, qy, qz, qw → metres and qw, qx, qy, qz.
+/// Appends a pose: x, y, z in mm and qx, qy, qz, qw → metres and qw, qx, qy, qz.
 void append_pose(Poses& poses, std::vector<double> pose) {
   for (std::size_t i = 0; i < 3; ++i) pose[i] /= kMmPerM;
   std::rotate(pose.begin() + 3, pose.begin() + 6, pose.end());
   poses.insert(poses.end(), pose.begin(), pose.end());
 }
 
-/// One episode's file.
+/// File of one episode.
 class EpisodeFile {
  public:
   EpisodeFile(const Episode& episode, const std::filesystem::path& path) : episode_(episode), file_(path) {}
@@ -71,7 +71,8 @@ class EpisodeFile {
       if (episode_.is_grasp()) append_pose(hand, episode_.series("hand_pose", t));
     }
     const std::string id = episode_.name_of("object_id");
-    const std::string name = id.find("rgb") == std::string::npos ? id : "object";  // what has "rgb" is read as images
+    const std::string name =
+        id.find("rgb") == std::string::npos ? id : "object";  // UniVTAC reads names that contain "rgb" as images
     file_.group("/actor");
     if (known)
       write_poses("/actor/" + name, object, "the object " + id);
@@ -119,8 +120,7 @@ class EpisodeFile {
     return false;
   }
 
-  /// UniVTAC encodes arrays in the order R, G, B with OpenCV, which takes them for B, G, R, and decodes them in the
-  /// same way.
+  /// UniVTAC encodes arrays in the order R, G, B with OpenCV, which assumes B, G, R, and decodes them in the same way.
   void write_streams(const std::string& path, const SampleAt& sample, const char* field) {
     const std::vector<std::size_t> shape = sample.shard.shape(sample.field(field));
     std::vector<std::string> streams;
@@ -159,7 +159,7 @@ Value::Map write_univtac(std::vector<std::filesystem::path> shards, const Output
   std::set<std::string> names;
   const std::size_t alone = for_each_episode(std::move(shards), [&](std::size_t, const Episode& episode) {
     const SampleAt& sample = episode.sample();
-    const std::size_t index = sample.shard.count_attribute(sample.group, "index");  // in the plan
+    const std::size_t index = sample.shard.count_attribute(sample.group, "index");  // index in the plan
     const std::string name = fmt::format("{}/{}/hdf5/{}.hdf5", episode.kind(), episode.name_of("split"), index);
     if (!names.insert(name).second) throw DataError("{}: another sample has its index, {}", episode.id(), index);
     EpisodeFile(episode, output(name)).write();

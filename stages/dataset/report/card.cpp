@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 /// Pictures of one page that open in full when clicked.
 struct Pictures {
-  const fs::path& folder;  // of the page
+  const fs::path& folder;  // folder of the page
   Loading loading;
 
   /// `caption` is HTML.
@@ -31,7 +31,7 @@ struct Pictures {
   }
 };
 
-/// Colours of the normal picture for a flat face and one that leans 45° to each side.
+/// Colours of the normal picture for a flat face, and for faces inclined by 45° to each side.
 std::string normal_swatches() {
   struct Swatch {
     const char* words;
@@ -49,7 +49,7 @@ std::string normal_swatches() {
   return swatches + "</div>";
 }
 
-/// Of markers: what is drawn, and when.
+/// Caption of markers: content and time of the picture.
 std::string marker_caption(const MarkerPicture& picture, const std::vector<PhaseReport>& phases) {
   std::string caption = picture.arrows.empty() ? "<b>Contacts</b>"
                         : picture.since_press  ? "<b>Markers</b> since the end of the press"
@@ -105,7 +105,7 @@ std::string image_figures(const SampleReport& sample, const fs::path& folder, Lo
   return html;
 }
 
-/// Force over depth says something only while depth is what changes.
+/// True if force over depth is informative, that is, if only the depth changes.
 bool has_press_curve(const SampleReport& sample) {
   const auto only_pressed = [](const PhaseReport& phase) {
     using enum PhaseKind;
@@ -116,7 +116,7 @@ bool has_press_curve(const SampleReport& sample) {
          std::all_of(sample.frames.begin(), sample.frames.end(), [](const auto& f) { return f.depth_m.has_value(); });
 }
 
-/// Figures side by side; a kind of figures of their own in each row.
+/// Figures in a row; each kind of figures has a row of its own.
 std::string figure_row(const std::string& figures) {
   return figures.empty() ? "" : "<div class=\"pictures\">\n" + figures + "</div>\n";
 }
@@ -138,7 +138,7 @@ std::string facts(const std::string& heading, const std::vector<std::pair<std::s
   return html + "</dl></div>\n";
 }
 
-/// Of a press that failed, only what is known.
+/// Facts of a press; for a failed one only those that are known.
 std::string press_facts(const SampleReport& sample) {
   std::vector<std::pair<std::string, std::string>> lines;
   if (!sample.motion.empty()) lines.emplace_back("motion", html_text(sample.motion));

@@ -1,4 +1,4 @@
-// One sample on the page: pictures, press curve, numbers, files.
+// Shows one sample on the page: pictures, press curve, numbers, files.
 #pragma once
 
 #include <filesystem>
@@ -8,19 +8,20 @@
 
 namespace tacipc {
 
-/// Where the page's table finds the card: "sample-1" for index 0.
+/// Id of a card, to which the page's table links: "sample-1" for index 0.
 std::string card_id(std::size_t index);
 
 /// "passed" or "FAILED", coloured.
 std::string verdict_badge(const SampleReport& sample);
 
-/// When a browser fetches pictures: those far down a page of many samples only when they come into sight.
+/// Time at which a browser fetches pictures. On a page of many samples, distant pictures load only when they come into
+/// sight.
 enum class Loading { at_once, in_sight };
 
-/// What went wrong, pictures, curves, numbers, checks and files; `folder` is where the page will lie.
+/// Body of a sample: failure, pictures, curves, numbers, checks and files. `folder` is the page's final folder.
 std::string sample_body(const SampleReport& sample, const std::filesystem::path& folder, Loading loading);
 
-/// The same under the sample's name, as one of many on a page.
+/// Body of a sample under its name, as one of many on a page.
 std::string sample_card(const SampleReport& sample, std::size_t index, const std::filesystem::path& folder);
 
 }  // namespace tacipc

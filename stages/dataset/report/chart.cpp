@@ -38,7 +38,7 @@ std::string right_ticks_svg(const Scale& right, double right_end) {
   return svg;
 }
 
-/// Named along the stretch where the name fits in, else upright, else only when pointed at.
+/// The name stands along the interval if it fits, otherwise vertically, otherwise only as a tooltip.
 std::string band_svg(const Band& band, const Scale& x, bool dark) {
   constexpr double kLetter = 6.5, kLine = 13;
   const double from = x.place(band.from).value(), to = x.place(band.to).value();

@@ -13,7 +13,7 @@ namespace {
 constexpr Color kPaper{243, 244, 247}, kCard{255, 255, 255}, kLine{218, 223, 230}, kInk{27, 35, 48};
 constexpr Color kQuiet{93, 104, 120}, kGood{21, 112, 60}, kBad{163, 35, 27}, kBadPaper{253, 234, 232};
 
-/// Breaks at spaces so that each line fits; words that are too long are shortened. At most `max_lines`.
+/// Breaks text at spaces so that each line fits; words that are too long are shortened. At most `max_lines`.
 std::vector<Text> wrapped(const std::string& words, const Text& like, int width, std::size_t max_lines) {
   std::vector<Text> lines;
   Text line = like;

@@ -1,4 +1,4 @@
-// All samples on one picture.
+// Draws all samples on one picture.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace tacipc {
 
-/// Sizes in pixels, chosen by the number of samples: one large, a few in two columns, many in three.
+/// Sizes in pixels, by the number of samples: one large, a few in two columns, many in three.
 struct SheetLayout {
   int columns = 1;
   int rows = 1;
-  int picture_width = 0;  // each picture is fitted into a box of 4 : 3
+  int picture_width = 0;  // each picture fits into a box of 4 : 3
   int picture_height = 0;
   int cell_width = 0;
   int cell_height = 0;
@@ -27,8 +27,8 @@ struct SheetLayout {
   int cell_y(int index) const { return kHeader + index / columns * (cell_height + kMargin); }
 };
 
-/// Per sample: name, verdict, press force; tactile image, indentation, normals side by side, or why there are none.
-/// Characters outside ASCII are drawn as '?'. \throw DataError if a picture cannot be read.
+/// Picture with, per sample: name, verdict and press force; tactile image, indentation and normals in a row, or the
+/// reason why they are missing. Characters outside ASCII appear as '?'. \throw DataError if a picture cannot be read
 ByteImage contact_sheet(const std::string& title, const std::vector<SampleReport>& samples);
 
 }  // namespace tacipc

@@ -1,4 +1,4 @@
-// A moving picture on a page: all frames of a motion one above the other in one JPEG, which the page shows in turn.
+// Animation on a page: frames of a motion stacked in one JPEG, which the page shows in turn.
 #pragma once
 
 #include <string>
@@ -8,20 +8,21 @@
 
 namespace tacipc {
 
+/// Frames of an animation, and how to show them.
 struct FilmStrip {
-  ByteImage sheet;  // equal frames one above the other, from the first on
+  ByteImage sheet;  // equal frames, stacked from the first on
   int frames = 0;
-  std::vector<std::string> columns;  // of Film
-  FilmTimes times;                   // of all frames, not only of those that are shown
+  std::vector<std::string> columns;  // columns as in Film
+  FilmTimes times;                   // times of all frames, also of those that are not shown
 };
 
-/// Whether a folder has images of all frames of a press: of fewer nothing would move.
+/// True if a folder has images of all frames of a press; with fewer the animation is omitted.
 bool has_all_frames(const std::filesystem::path& render, std::size_t frames);
 
-/// At most forty frames, evenly spread, of at most 720 x 480 pixels. \throw DataError as Film and film_times
+/// Strip of at most forty frames, evenly spread, of at most 720 x 480 pixels. \throw DataError as Film and film_times
 FilmStrip film_strip(const std::vector<FilmedGel>& gels, const std::vector<double>& times_s);
 
-/// HTML. `file`: source of the JPEG, as the page names it
+/// Animation as HTML. `file` is the source of the JPEG, relative to the page.
 std::string film_figure(const FilmStrip& strip, const std::string& file);
 
 }  // namespace tacipc

@@ -35,7 +35,7 @@ std::string force_figure(const std::vector<GraspMoment>& moments) {
                            "right finger, " + curve_key(3) + "carried by both, upwards");
 }
 
-/// Up to the frame that is judged: what comes after is the object let go.
+/// Figure of slip up to the judged frame; later frames show the released object.
 std::string slip_figure(const GraspReport& grasp) {
   const std::vector<GraspMoment>& moments = grasp.moments;
   Chart chart = over_time(instants_of(moments), "slip and turn");
@@ -50,7 +50,7 @@ std::string slip_figure(const GraspReport& grasp) {
                            "turn of the object from when it was freed to when it is judged");
 }
 
-/// Of the fingers: how much of the normal force is on vertices that slip, up to the frame that is judged.
+/// Figure of the fingers: fraction of the normal force on slipping vertices, up to the judged frame.
 std::string share_figure(const GraspReport& grasp) {
   Chart chart = over_time(instants_of(grasp.moments), "share that slips");
   chart.left_label = "share";
@@ -63,7 +63,7 @@ std::string share_figure(const GraspReport& grasp) {
                            "right finger on vertices that slip");
 }
 
-/// "dropped (weight)".
+/// Text such as "dropped (weight)".
 std::string outcome_text(const GraspReport& grasp) {
   return html_text(grasp.outcome) + (grasp.reason ? " (" + html_text(*grasp.reason) + ")" : "");
 }

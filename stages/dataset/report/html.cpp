@@ -13,7 +13,7 @@ namespace tacipc {
 namespace fs = std::filesystem;
 namespace {
 
-/// The colours of the indentation picture as a style of their own.
+/// Style with the colours of the indentation picture.
 std::string color_bar_style() {
   constexpr int kStops = 17;
   std::string stops;
@@ -48,7 +48,7 @@ std::string number_text(std::optional<double> value, double scale, int digits) {
   if (!value) return "–";
   const double scaled = *value * scale;
   if (scaled == 0.0) return "0";
-  // The exponent after rounding: 9.996 has two digits before the point, as 10.0.
+  // Exponent after rounding: 9.996 has two digits before the point, like 10.0.
   const std::string scientific = fmt::format("{:.{}e}", scaled, digits - 1);
   const int exponent = std::stoi(scientific.substr(scientific.find('e') + 1));
   if (exponent < -3 || exponent >= 6) return scientific;

@@ -47,8 +47,10 @@ const StageSpec kReport{
                {.flag = "--config", .help = "with --plan: how much is shown (YAML)", .required = false}},
     .options = {{.flag = "--title", .help = "heading of the page", .fallback = "Tactile samples"}}};
 
-/// Writes the data of one view under its id, if there is one, and lists it. `read` gives the view and `say` its texts.
-/// A view shows a sample but proves nothing: one that cannot be read is left out.
+/// Writes the data of one view under its id, if there is one, and lists it. A view shows a sample but proves nothing,
+/// so one that cannot be read is left out.
+/// \param read gives the view
+/// \param say gives its texts
 template <typename Read, typename Say>
 bool write_view(Stage& stage, const ViewedSample& of, std::vector<ViewedSample>& viewed, Read&& read, Say&& say) {
   std::string script;
@@ -87,10 +89,10 @@ void write_views(Stage& stage, std::vector<SampleReport>& samples) {
 }
 
 constexpr int kFilmQuality = 85;
-constexpr const char* kFilm = "film.jpg";  // of gels that share one world
+constexpr const char* kFilm = "film.jpg";  // animation of gels that share one world
 
-/// Writes the moving picture of gels of which all frames were rendered. \return its HTML; none for fewer frames, or, as
-/// of a view, where one cannot be read. `times_s` gives the times of the frames.
+/// Writes the animation of gels of which all frames were rendered. `times_s` gives the times of the frames.
+/// \return its HTML; empty for fewer frames, or if one cannot be read
 template <typename Times>
 std::string write_film(Stage& stage, const std::string& name, const std::vector<FilmedGel>& gels, std::size_t frames,
                        Times&& times_s, const std::string& file) {
@@ -110,7 +112,7 @@ void write_films(Stage& stage, std::vector<SampleReport>& samples) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     SampleReport& sample = samples[i];
     if (!sample.images) continue;
-    // Where they were rendered for `track` or for a video, all frames are in a folder of their own.
+    // If they were rendered for `track` or for a video, all frames are in a folder of their own.
     const auto all = sample.folder / "frames";
     const FilmedGel gel{sample.folder / "press", std::filesystem::exists(all) ? all : sample.folder / "render"};
     sample.film = write_film(
@@ -124,11 +126,11 @@ struct Together {
   std::filesystem::path folder;
   SceneFolder scene;
   std::variant<GraspReport, SceneReport> report;
-  const char* id;                         // of the section and of the view
-  const char* strip;                      // file of the pictures in rows
-  std::optional<RobotReport> robot = {};  // of a scene that has one
-  bool has_pictures = false;              // of the robot, beside the page
-  std::string film = {};                  // HTML of the moving picture
+  const char* id;                         // id of the section and of the view
+  const char* strip;                      // file of the row of pictures
+  std::optional<RobotReport> robot = {};  // robot of the scene, if it has one
+  bool has_pictures = false;              // pictures of the robot exist next to the page
+  std::string film = {};                  // HTML of the animation
 
   bool& has_view() {
     return std::visit([](auto& of) -> bool& { return of.has_view; }, report);
@@ -180,7 +182,8 @@ void show_robot(Stage& stage, Together& all, SceneView& view) {
   all.has_pictures = true;
 }
 
-/// One view of all gels, to which each gel's card leads too. \param samples in the order of the scene's gels
+/// Writes one view of all gels, to which the card of each gel also links. \param samples in the order of the scene's
+/// gels
 void write_view_of_all(Stage& stage, Together& all, std::vector<SampleReport>& samples) {
   std::vector<ViewedSample> viewed;
   const auto read = [&] {
@@ -200,8 +203,7 @@ void write_view_of_all(Stage& stage, Together& all, std::vector<SampleReport>& s
   write_view_page(stage, viewed);
 }
 
-/// Before any is shown: a picture that cannot be read makes its own sample a failed one, and does not end the page of
-/// all.
+/// Reads the pictures of a sample before any is shown: a picture that cannot be read makes only its own sample fail.
 void try_pictures(SampleReport& sample) {
   if (!sample.images) return;
   const SampleImages& images = *sample.images;
@@ -216,7 +218,7 @@ void try_pictures(SampleReport& sample) {
 }
 
 void report_samples(Stage& stage) {
-  // A report that lies in a sample's folder is part of what the record hashes: an old one must not be.
+  // The record hashes a report that lies in a sample's folder, so an old one must be removed.
   for (const char* name :
        {"index.html", "contact_sheet.png", kGraspStrip, kSceneStrip, kRobotStrip, kFilm, "films", kViewPage, "view"}) {
     std::error_code error;

@@ -21,7 +21,7 @@ std::string phase_text(const Record& phase) {
     words += before + (low == high ? fmt::format("{:g}", low) : fmt::format("{:g} to {:g}", low, high)) + after;
   };
   add(" ", "depth_mm", " mm");
-  // A load is a list of three forces, as is that on a free object; a press one number.
+  // A load, also on a free object, is a list of three forces; a press has one number.
   const bool vector = kind == name_of(PhaseKind::load) || kind == name_of(PhaseKind::free);
   if (const auto load = vector ? phase.numbers("force_n", 3) : std::nullopt)
     words += fmt::format(" ({:g}, {:g}, {:g}) N", (*load)[0], (*load)[1], (*load)[2]);
@@ -52,7 +52,7 @@ std::optional<double> asked_depth_mm(const Record& sample) {
 
 std::vector<PhaseReport> phases_of(const std::vector<std::string>& frame_names, const Record& sample) {
   const int frames = static_cast<int>(frame_names.size());
-  std::vector<std::int64_t> cuts;  // last frames of the phases that were asked for
+  std::vector<std::int64_t> cuts;  // last frames of the requested phases
   std::int64_t end = 0;
   for (const Record& phase : sample.one_or_many("motion")) cuts.push_back(end += phase.count("steps").value_or(frames));
   if (end != frames - 1) cuts.clear();

@@ -13,10 +13,10 @@
 namespace tacipc {
 namespace {
 
-/// More marks than this would hide the line.
+/// Limit of marks; more would hide the line.
 constexpr std::size_t kMaxMarks = 40;
 
-/// The curve of one number per frame, with a mark on each frame while there are few.
+/// Curve of one number per frame, with a mark on each frame if there are few.
 template <typename Number>
 Curve curve_of(const std::vector<FrameReport>& frames, const char* unit, Number&& number) {
   Curve curve;
@@ -32,7 +32,7 @@ bool has_values(const Curve& curve) {
   return std::any_of(curve.values.begin(), curve.values.end(), [](const auto& value) { return value.has_value(); });
 }
 
-/// Frame at which a time falls, interpolated between two frames.
+/// Frame number at a time, interpolated between two frames.
 std::optional<double> frame_at(const std::vector<FrameReport>& frames, double time_s) {
   for (std::size_t i = 1; i < frames.size(); ++i) {
     const auto before = frames[i - 1].time_s, after = frames[i].time_s;
@@ -62,7 +62,7 @@ void add_slip(Chart& chart, const SampleReport& sample) {
   }
 }
 
-/// A twist shows in the torque, not in the forces.
+/// True for a twist, which appears in the torque, not in the forces.
 bool turns(const SampleReport& sample) {
   return std::any_of(sample.phases.begin(), sample.phases.end(),
                      [](const PhaseReport& phase) { return phase.name == "twist" || phase.name == "path"; });
@@ -113,7 +113,7 @@ std::string ratio_curve(const SampleReport& sample) {
   if (!(sample.friction_coefficient.value_or(0.0) > 0.0)) return "";
   double largest_n = 0.0;
   for (const FrameReport& frame : sample.frames) largest_n = std::max(largest_n, frame.press_force_n);
-  // Of a force near zero the ratio is noise.
+  // The ratio is noise for a force near zero.
   const double enough_n = 0.01 * largest_n;
   Chart chart = over_frames(sample, "tangential over press force");
   chart.left_label = "tangential / press force";
@@ -148,7 +148,7 @@ std::string balance_curve(const SampleReport& sample) {
 
 struct Column {
   const char* heading;
-  std::function<std::string(const FrameReport&)> text;  // "–" where the frame has no such number
+  std::function<std::string(const FrameReport&)> text;  // "–" if the frame has no such number
 };
 
 std::vector<Column> columns() {
@@ -175,7 +175,7 @@ std::vector<Column> columns() {
           {"smallest volume ratio", number(&F::min_volume_ratio, 1)}};
 }
 
-/// Frames that the table shows: all, or about as many as `kMaxRows`.
+/// Frames of the table: all, or about `kMaxRows`.
 std::vector<int> rows(const SampleReport& sample) {
   constexpr int kMaxRows = 40;
   const int frames = static_cast<int>(sample.frames.size()), stride = (frames + kMaxRows - 1) / kMaxRows;

@@ -1,4 +1,4 @@
-// What happened over the frames of a sample, as drawings and as a table.
+// Shows the frames of a sample as drawings and as a table.
 #pragma once
 
 #include <string>
@@ -12,12 +12,12 @@ namespace tacipc {
 /// each with a depth
 std::string press_curve_svg(const std::vector<FrameReport>& frames);
 
-/// The drawings over frames that there are numbers for, each a figure of HTML with its caption: forces, contact area
-/// and pressure, tangential over press force (with friction), force balance.
+/// Drawings over frames for which there are numbers, each a figure of HTML with its caption: forces, contact area and
+/// pressure, tangential over press force (with friction), force balance.
 std::string frame_curves(const SampleReport& sample);
 
-/// A table to unfold, with a column for each number that a frame has. Of many frames some are left out, evenly; the
-/// first, the last of each phase and the last stay. Empty if there are no frames.
+/// Folded table with a column for each number of a frame. If there are many frames, some are left out evenly, but not
+/// the first, the last of each phase, and the last. Empty without frames.
 std::string frames_table(const SampleReport& sample);
 
 }  // namespace tacipc

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file's name, or where every file is called object.ply its folder's.
+/// Name of an object: its file's name, or its folder's if every file is called object.ply.
 std::string object_name(const fs::path& mesh) {
   const std::string stem = mesh.stem().string();
   return stem == "object" && mesh.has_parent_path() ? mesh.parent_path().filename().string() : stem;
@@ -38,9 +38,9 @@ PlacementReport read_placement(const Record& press) {
   return placement;
 }
 
-/// Depth of the object's lowest point below z = 0, whatever way it moved and turned.
+/// Depth of the object's lowest point below z = 0, for any pose.
 double depth_at(const Matrix4& gel_from_object, const Positions& object) {
-  const Vector3 up = gel_from_object.row(2).head<3>();  // how height grows in the object's own frame
+  const Vector3 up = gel_from_object.row(2).head<3>();  // gradient of the height in the object's own frame
   return 0.0 - ((object * up).minCoeff() + gel_from_object(2, 3));
 }
 
@@ -77,9 +77,9 @@ void add_torques(const PressFolder& press, std::vector<FrameReport>& frames) {
   for (std::size_t i = 0; i < frames.size(); ++i) frames[i].torque_z_n_m = wrenches[i].torque_n_m.z();
 }
 
-/// Depths of all frames, and the one that counts for the sample: at the end of the press, or else the deepest.
+/// Adds the depths of all frames, and the depth of the sample: at the end of the press, or otherwise the deepest.
 void add_depths(const PressFolder& arrays, const Record& press, SampleReport& sample) {
-  if (press.section("config").section("sample").has("bodies")) return;  // of a scene there is no one object
+  if (press.section("config").section("sample").has("bodies")) return;  // a scene has no single object
   const std::vector<Matrix4> poses = arrays.poses();
   std::string why;
   const auto object_path = pressed_input(arrays.folder(), press, "object", why);
@@ -135,7 +135,8 @@ void warn_of_scale(const Record& summary, SampleReport& sample) {
     sample.warnings.push_back(fmt::format("The object is scaled by {:.4g}.", scale));
 }
 
-/// Of an object that fingers grip no side presses, so pictures and warnings of that side would mislead.
+/// Reads the survey of sides. An object gripped by fingers has no pressing side, so its pictures and warnings would
+/// mislead.
 void read_sides(const fs::path& folder, const Record& sides, SampleReport& sample) {
   const bool one_presses = sample.placement.has_value();
   if (const fs::path picture = folder / "sides.png"; one_presses && fs::is_regular_file(picture))
@@ -155,7 +156,7 @@ void read_sides(const fs::path& folder, const Record& sides, SampleReport& sampl
   }
 }
 
-/// What the stage wrap made of the scan, if that is what decimate took; `scale` is what decimate made of its size.
+/// Reads the record of the stage wrap, if decimate read its result. `scale` is decimate's factor on the size.
 void read_wrap(const fs::path& folder, double scale, SampleReport& sample) {
   const fs::path path = (folder / "wrap.yaml").lexically_normal();
   if (!fs::is_regular_file(path)) return;
@@ -218,7 +219,7 @@ void read_summary(const RecordLines<PressSummary>& summary, SampleReport& sample
   sample.balance_limit = summary.section(&Lines::limits).find(&PressLimits::balance_relative);
 }
 
-/// What the arrays tell; nothing where they were dropped after packing.
+/// Adds data from the arrays; nothing if they were dropped after packing.
 void add_arrays(const fs::path& folder, const Record& press, SampleReport& sample) {
   if (was_dropped(folder)) {
     sample.warnings.emplace_back(

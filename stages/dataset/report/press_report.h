@@ -1,4 +1,4 @@
-// What press left in its folder, and the records beside its gel and object.
+// Reads the results of press from its folder, and the records of its gel and object.
 #pragma once
 
 #include <filesystem>
@@ -12,22 +12,23 @@
 
 namespace tacipc {
 
-/// Fills in what press.yaml alone tells. \throw DataError for what is malformed.
+/// Fills in the content of press.yaml. \throw DataError for malformed content
 void read_press_record(const Record& press, SampleReport& sample);
 
-/// \throw SolverError for the first check of `read_press_record` that is not held.
+/// \throw SolverError for the first check of `read_press_record` that fails
 void judge_press(const Record& press, const SampleReport& sample);
 
-/// Fills in what the finished press in `folder` tells, as far as it is sound.
-/// \throw DataError for what is malformed, SolverError for a check that is not held.
+/// Fills in the results of the finished press in `folder`, as far as they are valid.
+/// \throw DataError for malformed content
+/// \throw SolverError for a failed check
 void read_press(const std::filesystem::path& folder, SampleReport& sample);
 
-/// The gel or object that was pressed, by its name among the inputs of the record; where it is not there any more,
-/// nothing, and why.
+/// The pressed gel or object, by its name among the inputs of the record. If it does not exist any more, returns
+/// nothing and sets `why`.
 std::optional<std::filesystem::path> pressed_input(const std::filesystem::path& folder, const Record& press,
                                                    const std::string& input, std::string& why);
 
-/// Frames of which pictures are shown: the ends of the phases, a handful.
+/// Frames whose pictures are shown: the ends of the phases, a handful.
 std::vector<int> pictured_frames(const SampleReport& sample);
 
 /// Adds a link to a file that exists.

@@ -14,11 +14,11 @@ namespace tacipc {
 namespace {
 
 constexpr double kQuiverWidth = 400, kMaxHeight = 400, kFooter = 28, kQuiverMargin = 8;
-/// Shorter displacements are numerical noise: drawn as dots.
+/// Shorter displacements are numerical noise and appear as dots.
 constexpr double kNothingMm = 1e-6;
 constexpr const char* kArrows = "class=\"arrows\"";
 
-/// From mm on the front to the drawing.
+/// Transforms mm on the front into the drawing.
 struct FrontDrawing {
   View view;
   double per_mm;
@@ -33,8 +33,8 @@ struct FrontDrawing {
   double y(double y_mm) const { return kQuiverMargin + per_mm * (y_mm - view.low_y); }
 };
 
-/// One dot per cell of a few drawing units, so that the picture stays small however fine the gel is; where some slip
-/// and some do not, the slipping ones show.
+/// Contacts as one dot per cell of a few drawing units, so that the picture stays small for any gel. In a mixed cell
+/// the slipping ones show.
 std::string contacts_svg(const std::vector<ContactPoint>& contacts, const FrontDrawing& drawing) {
   constexpr double kCell = 3.0;
   std::map<std::pair<long, long>, bool> cells;
@@ -53,7 +53,7 @@ std::string contacts_svg(const std::vector<ContactPoint>& contacts, const FrontD
   return svg;
 }
 
-/// Smallest distance from one marker to another; infinite where there is only one.
+/// Smallest distance between two markers; infinite for a single one.
 double spacing_mm(const std::vector<MarkerArrow>& arrows) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < arrows.size(); ++i)

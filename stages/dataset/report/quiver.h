@@ -1,4 +1,4 @@
-// Markers as arrows over the contacts, as an SVG drawing.
+// Draws markers as arrows over the contacts, as SVG.
 #pragma once
 
 #include <string>
@@ -8,24 +8,25 @@
 
 namespace tacipc {
 
-/// What part of the front face is drawn, mm.
+/// Drawn part of the front face, mm.
 struct View {
   double low_x = 0.0, high_x = 1.0;
   double low_y = 0.0, high_y = 1.0;
 };
 
-/// The same for all pictures of a sample: every marker and contact of them and a margin. \pre something to see in one
+/// Common view of all pictures of a sample: all their markers and contacts, and a margin. \pre some picture shows
+/// something
 View view_of(const std::vector<MarkerPicture>& pictures);
 
-/// How many times longer than they are the arrows are drawn: 1, 2 or 5 times a power of ten, so that the longest
-/// just does not reach the next marker. 1 if nothing moved.
+/// Factor by which arrows are enlarged: 1, 2 or 5 times a power of ten, so that the longest arrow just does not reach
+/// the next marker. 1 if nothing moved.
 double arrow_scale(const std::vector<MarkerArrow>& arrows);
 
 /// Length of the longest arrow, mm.
 double longest_mm(const std::vector<MarkerArrow>& arrows);
 
-/// Dots at the markers, arrows from them, stuck and slipping contacts underneath, and an arrow of known length beside.
-/// x to the right, y down, as in the tactile image.
+/// Drawing with dots at the markers, arrows from them, stuck and slipping contacts below them, and an arrow of known
+/// length. x points to the right and y down, as in the tactile image.
 std::string quiver_svg(const MarkerPicture& picture, const View& view);
 
 }  // namespace tacipc

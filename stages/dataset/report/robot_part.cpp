@@ -47,7 +47,7 @@ std::string pad_figure(const PadForces& pad, const std::vector<Instant>& frames,
 std::string actuator_figure(const RobotFolder& motion, std::size_t actuator, const std::vector<Instant>& frames) {
   const std::string& name = motion.parts.actuators[actuator];
   Chart chart = over_time(frames, "actuator " + name);
-  // Metres of a small machine have more digits than a tick has room for.
+  // For a small machine, numbers in metres have more digits than fit at a tick.
   constexpr double kSmall = 0.1, kThousand = 1e3;
   const auto is_small = [&](const RobotFrame& now) { return std::abs(now.control[actuator]) < kSmall; };
   const bool small = std::all_of(motion.frames.begin(), motion.frames.end(), is_small);
@@ -71,10 +71,10 @@ bool changes(const RobotFolder& motion, std::size_t actuator) {
   return std::any_of(motion.frames.begin(), motion.frames.end(), other);
 }
 
-/// To a tenth, without a minus before a zero.
+/// Value rounded to a tenth, without a minus before a zero.
 double tenths(double value) { return std::round(10.0 * value) / 10.0 + 0.0; }
 
-/// A sentence for each body with an outcome.
+/// Sentence for each body with an outcome.
 std::string outcomes(const std::vector<HeldBodyLines>& held) {
   std::string html;
   for (const HeldBodyLines& body : held) {
@@ -89,7 +89,7 @@ std::string outcomes(const std::vector<HeldBodyLines>& held) {
   return html;
 }
 
-/// Slip and turn of the first bodies that the gels hold, as seen from the pads.
+/// Figure of slip and rotation of the first bodies that the gels hold, relative to the pads.
 std::string hold_figure(const std::vector<HeldBodyLines>& held, const SceneBodies& scene,
                         const std::vector<Instant>& frames) {
   if (held.empty()) return "";
@@ -119,7 +119,8 @@ std::string hold_figure(const std::vector<HeldBodyLines>& held, const SceneBodie
                            turns + ". Of the point that was gripped; that the gels give way counts");
 }
 
-/// Tries one after another; a line for each window, or part of one that was tried again with fewer frames.
+/// Figure of the coupling iterations in order; a line for each time window, or for a part that was repeated with fewer
+/// frames.
 std::string residual_figure(const RobotReport& robot) {
   constexpr std::size_t kMostMarks = 100;
   Chart chart;
@@ -143,7 +144,7 @@ std::string residual_figure(const RobotReport& robot) {
         curve.titles.push_back(fmt::format("window {} of {} frames, try {}: {:.2g}", now.window, now.frames, now.number,
                                            now.residual_relative));
     };
-    if (first) add(x - 0.5, std::nullopt);  // ends the line of the window before
+    if (first) add(x - 0.5, std::nullopt);  // ends the line of the previous window
     add(x, now.residual_relative);
   }
   chart.x.push_back(static_cast<double>(robot.tries.size()) + 0.5);
@@ -200,7 +201,7 @@ std::vector<Instant> steps_over_time(const RobotReport& robot, std::vector<Insta
     throw DataError("robot: has {} frames, and its scene {}", moved.size(), frames.size());
   if (robot.steps.empty()) throw DataError("robot: its task has no steps");
   for (std::size_t f = 0; f < frames.size(); ++f) {
-    // After the last step there may be a frame more.
+    // After the last step there may be one more frame.
     const auto number = std::min(static_cast<std::size_t>(std::max(0, moved[f].step)), robot.steps.size() - 1);
     frames[f].phase = robot.steps[number];
   }

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a step does first, in a word or two.
+/// Name of a step: its first action, in a word or two.
 std::string step_name(const Record& step, std::size_t number) {
   std::string what = "hold";
   if (step.has("set")) {
@@ -50,7 +50,7 @@ std::vector<CouplingTry> read_tries(const fs::path& file) {
                      .stiffness_n_m = number_in<double>(table, file, "stiffness_n_m"),
                      .apart_m = table["apart_m"].empty() ? std::nullopt
                                                          : std::optional(number_in<double>(table, file, "apart_m"))});
-  // A window that was halved has its tries with fewer frames after those with more, whatever the order of the lines.
+  // Iterations of a halved window follow those with more frames, regardless of the order of the lines.
   std::stable_sort(tries.begin(), tries.end(), [](const CouplingTry& a, const CouplingTry& b) {
     return a.window != b.window ? a.window < b.window : a.frames > b.frames;
   });

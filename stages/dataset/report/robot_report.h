@@ -1,5 +1,5 @@
-// What the folder of a robot's run tells beside its arrays: the task, what was drawn for it, how robot and press came
-// to agree.
+// Reads a robot's run from its folder, except the arrays: the task, its drawn variables, and the coupling iterations of
+// robot and press.
 #pragma once
 
 #include <filesystem>
@@ -13,31 +13,33 @@
 
 namespace tacipc {
 
-/// One try of a window, in which the robot felt what the press had answered to the try before.
+/// One coupling iteration ("try") of a time window. Its loads on the robot are the response of the press in the
+/// previous one.
 struct CouplingTry {
-  int window = 0, frames = 0;  // its number from 1, and how many frames it has
-  int number = 0;              // of the try, from 1
+  int window = 0, frames = 0;  // number of the window from 1, and its frames
+  int number = 0;              // number of the iteration, from 1
   double residual_n = 0.0, residual_relative = 0.0, stiffness_n_m = 0.0;
-  std::optional<double> apart_m = {};  // of gels and robot, where that felt the answer as it is
+  std::optional<double> apart_m =
+      {};  // distance between gels and robot, if the robot was loaded by the response itself
 
   bool of_one_window(const CouplingTry& other) const { return window == other.window && frames == other.frames; }
 };
 
+/// Data of a robot's run.
 struct RobotReport {
   std::string task, seed;
-  std::vector<std::pair<std::string, double>> variables;  // that were drawn
-  std::vector<std::string> steps;                         // of the task, "1 grip", "2 move", …
+  std::vector<std::pair<std::string, double>> variables;  // names and values of the drawn variables
+  std::vector<std::string> steps;                         // steps of the task: "1 grip", "2 move", …
   RobotFolder motion;
-  std::vector<CouplingTry>
-      tries;                // in the order in which they were made; none of a robot that felt MuJoCo's own contacts
-  double tolerance = 1e-3;  // of residual_relative
-  std::vector<HeldBodyLines> held = {};  // by the gels, as the record of the scene has them
+  std::vector<CouplingTry> tries;  // all iterations in order of execution; empty for a robot with MuJoCo's own contacts
+  double tolerance = 1e-3;         // tolerance of residual_relative
+  std::vector<HeldBodyLines> held = {};  // bodies held by the gels, as in the record of the scene
 };
 
-/// Folder of a robot below that of its scene.
+/// Folder of the robot, below that of its scene.
 std::filesystem::path robot_folder(const std::filesystem::path& scene);
 
-/// Nothing where the scene has no robot. \throw DataError for what is malformed
+/// Reads the report; nothing if the scene has no robot. \throw DataError for malformed content
 std::optional<RobotReport> read_robot_report(const std::filesystem::path& scene);
 
 }  // namespace tacipc

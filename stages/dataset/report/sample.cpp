@@ -62,7 +62,7 @@ void read_render(const fs::path& folder, SampleReport& sample) {
     link_if_there(sample.data, field_of(file).file, frame_path(folder, last, file));
 }
 
-/// What a failed press was asked for, where the sample brings it along.
+/// Reads the requested motion of a failed press, if the sample has it.
 void read_wish(const fs::path& path, SampleReport& sample) {
   if (!fs::is_regular_file(path)) return;
   const Record wish = Record::from_file(path);
@@ -75,7 +75,7 @@ std::string in_one_line(std::string text) {
   return text;
 }
 
-/// A stage without record: its file of the failure tells why, else its log.
+/// Reads the reason for a stage without record: from its failure file, otherwise from its log.
 void read_failure(const std::string& stage, SampleReport& sample) {
   const fs::path folder = sample.folder / stage, path = folder / (stage + ".failed.yaml");
   sample.failure = failure_reason(folder, stage);
@@ -104,7 +104,7 @@ void judge(SampleReport& sample) {
 
 fs::path without_slash(const fs::path& folder) { return folder.has_filename() ? folder : folder.parent_path(); }
 
-/// Paths below the sample's folder are shown from there, so that the page does not depend on where it was made.
+/// Text in which paths below the sample's folder are relative to it, so that the page is independent of its location.
 std::string without_folder(std::string text, const fs::path& folder) {
   const std::string prefix = folder.string() + "/";
   for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix, at)) {

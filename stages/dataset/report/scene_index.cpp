@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One scene, as far as the page tells of it.
+/// Content of the page on one scene.
 struct ListedScene {
   fs::path folder;
   std::string name;
@@ -30,7 +30,7 @@ struct ListedScene {
   SceneReport report;
   std::optional<RobotReport> robot;
   int gels = 0, passed = 0;
-  std::string pictures = {};  // file of the row, empty if there is none
+  std::string pictures = {};  // file of the row of pictures, empty if there is none
 };
 
 std::string name_of(const fs::path& folder) {
@@ -52,7 +52,7 @@ ListedScene read_listed(const fs::path& folder) {
   return scene;
 }
 
-/// A scene whose gels or bodies are not there any more has none.
+/// Writes the pictures; none if gels or bodies of the scene no longer exist.
 void write_pictures(Stage& stage, ListedScene& scene, const std::string& file) {
   constexpr int kWidth = 340, kHeight = 320;
   try {
@@ -67,7 +67,7 @@ void write_pictures(Stage& stage, ListedScene& scene, const std::string& file) {
   }
 }
 
-/// Largest force on any gel, into it and along its front.
+/// Largest force on any gel, normal and along its front.
 PadForce largest_force(const ListedScene& scene) {
   PadForce largest;
   const SceneBodies& bodies = scene.report.bodies;

@@ -17,9 +17,9 @@ namespace tacipc {
 namespace {
 
 constexpr std::size_t kMostCurves = 4;
-constexpr double kSmallestForceN = 1e-3;  // a pair that never pushes more is not drawn
+constexpr double kSmallestForceN = 1e-3;  // a pair that never pushes more than this is not drawn
 
-/// The numbers of some items, the largest first, at most as many as a chart can show.
+/// Indices of the items with the largest numbers, in descending order, at most as many as a chart can show.
 std::vector<std::size_t> largest(const std::vector<double>& sizes, double least) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -30,7 +30,7 @@ std::vector<std::size_t> largest(const std::vector<double>& sizes, double least)
   return order;
 }
 
-/// Two bodies, and how strongly they push in each frame, N.
+/// Two bodies and the force between them in each frame, N.
 struct PushingPair {
   std::string names;
   Curve force_n;
@@ -56,7 +56,7 @@ std::vector<PushingPair> strongest_pairs(const SceneBodies& scene) {
   return strongest;
 }
 
-/// Names of curves with the lines that stand for them, from a colour on.
+/// Names of curves with the lines that represent them, starting with colour `first`.
 std::string keys(const std::vector<std::string>& names, int first) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -77,7 +77,7 @@ std::string force_figure(const SceneReport& scene) {
   return figure(chart, "<b>Forces</b> between " + keys(names, 1));
 }
 
-/// How much higher than at the start the origin of a body's own frame is, m.
+/// Rise of a body's origin since the start, m.
 double risen_m(const SceneBodies& scene, std::size_t body, std::size_t frame) {
   return scene.body_pose[frame][body](2, 3) - scene.body_pose[0][body](2, 3);
 }
@@ -88,7 +88,7 @@ double turned_rad(const SceneBodies& scene, std::size_t body, std::size_t frame)
   return Eigen::AngleAxisd(Matrix3(now * first.transpose())).angle();
 }
 
-/// Of the two rigid bodies that move most: with heights and turns as many curves as there are colours.
+/// Figure of the two rigid bodies that move most: their heights and rotations need all colours.
 std::string motion_figure(const SceneReport& scene) {
   const SceneBodies& bodies = scene.bodies;
   std::vector<double> most;
@@ -118,7 +118,7 @@ std::string motion_figure(const SceneReport& scene) {
                            keys(names, 1 + static_cast<int>(names.size())) + ", both since frame 0");
 }
 
-/// How far a rigid body has gone along the front of a gel since they touch, m; nothing where they do not.
+/// Displacement of a rigid body along the front of a gel since contact began, m; nothing without contact.
 Curve slip_curve(const SceneBodies& scene, std::size_t gel, std::size_t body) {
   Curve curve;
   Vector3 first = Vector3::Zero();

@@ -1,5 +1,5 @@
-// What a page shows of a scene beside its gels: forces between bodies, how rigid ones move, energies, and the sensors'
-// images in a row.
+// Shows a scene on a page in addition to its gels: forces between bodies, motion of rigid bodies, energies, and a row
+// of sensor images.
 #pragma once
 
 #include <filesystem>
@@ -13,23 +13,24 @@
 
 namespace tacipc {
 
+/// Data of a scene from its folder.
 struct SceneReport {
   std::vector<Instant> frames;
   SceneBodies bodies;
-  bool has_view = false;  // in 3-D, beside the page
+  bool has_view = false;  // a 3-D view exists for the page
 };
 
-/// \throw DataError if the folder has no record of a scene
+/// Reads a scene. \throw DataError if the folder has no record of a scene
 SceneReport read_scene(const std::filesystem::path& folder);
 
 inline constexpr const char* kSceneStrip = "scene_strip.png";
 /// Id of the section on the page, and of the scene's view.
 inline constexpr const char* kSceneId = "scene";
 
-/// What the page says of the scene; the strip of its pictures lies beside it under its name.
+/// Text of the page on the scene; the strip of its pictures lies next to it under kSceneStrip.
 PageWords scene_words(const SceneReport& scene);
 
-/// What is said of each frame of a view: "frame 12 of 40 · phase 2 · 0.12 s · left and block 4.98 N".
+/// Caption of each frame of a view, such as "frame 12 of 40 · phase 2 · 0.12 s · left and block 4.98 N".
 std::vector<std::string> scene_texts(const SceneReport& scene, const SceneView& view);
 
 }  // namespace tacipc

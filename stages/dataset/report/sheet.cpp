@@ -7,9 +7,9 @@
 namespace tacipc {
 namespace {
 
-constexpr int kOversampling = 4;  // drawn larger and averaged, strokes of a stroke font become smooth
+constexpr int kOversampling = 4;  // text is drawn larger and averaged, so that strokes become smooth
 
-/// The same pixels as OpenCV has them.
+/// View of the same pixels as an OpenCV matrix.
 cv::Mat mat_of(const ByteImage& image) {
   return {image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.pixels.data())};
 }

@@ -1,4 +1,4 @@
-// Pictures put together of smaller ones and of words, in smooth strokes.
+// Composes pictures from smaller pictures and text in smooth strokes.
 #pragma once
 
 #include <array>
@@ -10,29 +10,30 @@ namespace tacipc {
 
 using Color = std::array<double, 3>;  // RGB
 
+/// A line of text in a picture.
 struct Text {
   std::string words;
-  int height;  // of a capital letter, pixels
+  int height;  // height of a capital letter, px
   Color color;
   bool bold = false;
 
   int stroke() const;
-  int width() const;  // pixels
+  int width() const;  // width, px
 };
 
-/// The stroke font knows ASCII only: one '?' for each other character.
+/// Text with '?' for each character that the stroke font, which has only ASCII, lacks.
 std::string ascii(const std::string& text);
 
-/// In ASCII, shortened by dots to at most `width` pixels.
+/// Text in ASCII, shortened by dots to at most `width` pixels.
 Text fitted(Text text, int width);
 
-/// Left end of the text at x, its letters standing on row `baseline`. \pre RGB
+/// Draws the text with its left end at x and its letters on row `baseline`. \pre RGB
 void draw_text(ByteImage& sheet, const Text& text, int x, int baseline);
 
-/// A box of one colour. \pre RGB
+/// Fills a box with one colour. \pre RGB
 void fill_box(ByteImage& sheet, int x, int y, int width, int height, const Color& color);
 
-/// The largest copy that fits into the box and keeps its proportions, averaged where it gets smaller.
+/// Largest copy that fits into the box and keeps its proportions; averaged if it is smaller than the image.
 /// \pre RGB, width and height ≥ 1
 ByteImage fitted_picture(const ByteImage& image, int width, int height);
 

@@ -1,4 +1,4 @@
-// What the gels of a grasp or a scene share on a page: the phases over time, and their images in rows.
+// Common parts of the pages of a grasp or a scene: the phases over time, and rows of images of the gels.
 #pragma once
 
 #include <string>
@@ -10,17 +10,17 @@
 
 namespace tacipc {
 
-/// A frame.
+/// Time and phase of a frame.
 struct Instant {
   double time_s = 0.0;
   std::string phase;
 };
 
-/// A chart without curves whose shaded stretches are the phases.
+/// Chart without curves, in which the phases are shaded intervals.
 Chart over_time(const std::vector<Instant>& frames, const std::string& what);
 
-/// A row of images for each gel, of at most ten of the frames that were rendered, from the first to the last, with
-/// words what they are. \throw DataError if there are none, or a gel lacks one that the first gel has
+/// Picture with a row of images for each gel, of at most ten rendered frames from the first to the last, with labels.
+/// \throw DataError if there are none, or a gel lacks one that the first gel has
 ByteImage picture_strip(const std::vector<SceneGel>& gels, const std::vector<Instant>& frames);
 
 }  // namespace tacipc

@@ -13,7 +13,7 @@ struct Extreme {
   std::optional<int> frame;
 };
 
-/// The worst of a summary's number and the frames' own, with the frame where it occurred.
+/// Worst value of a summary's number and the frames' own, with its frame.
 template <typename Number, typename Worse>
 std::optional<Extreme> extreme(std::optional<double> in_summary, const std::vector<FrameReport>& frames,
                                Number&& number, Worse&& worse) {

@@ -1,4 +1,4 @@
-// What a press was checked against: each check with what was reached and its limit.
+// Checks of a press: each with its value and its limit.
 #pragma once
 
 #include <optional>
@@ -11,30 +11,31 @@ namespace tacipc {
 
 struct FrameReport;
 
-/// How many pairs of triangles may intersect and how many tetrahedra be inverted.
+/// Permitted numbers of intersecting pairs of triangles and of inverted tetrahedra.
 struct CountLimits {
   int intersections = 0;
   int inverted_tets = 0;
 };
 CountLimits count_limits(const RecordLines<PressSummary>& summary);
 
+/// One check of a press.
 struct CheckReport {
   std::string name;
-  std::string value;         // what was reached, with its unit
-  std::string limit;         // what had to hold, with its unit
-  std::optional<int> frame;  // where it came nearest to the limit, if known
+  std::string value;         // value with its unit
+  std::string limit;         // limit with its unit
+  std::optional<int> frame;  // frame nearest to the limit, if known
   bool held = true;
 };
 
-/// The checks a finished press has numbers and limits for, the limits as the summary tells them: press alone defines
-/// them. Older records tell none; those of their limits that have always been zero are taken as that. Numbers over all
-/// frames are taken from the summary, and once more from the frames where these are worse.
-/// \throw DataError if the summary lacks one that every press has.
+/// Checks for which a finished press has numbers and limits. The limits come from the summary, because only press
+/// defines them. Older records have none; limits that have always been zero then count as zero. Numbers over all frames
+/// come from the summary, or from the frames if these are worse.
+/// \throw DataError if the summary lacks a limit that every press has
 std::vector<CheckReport> checks_of(const RecordLines<PressSummary>& summary, const std::vector<FrameReport>& frames);
 
-/// The check that ended a press, from the file of its failure. \throw DataError if it is malformed.
+/// Check that ended a press, from its failure file. \throw DataError if the file is malformed
 struct FailedCheck {
-  std::string message;  // empty if none
+  std::string message;  // empty: no message
   std::optional<CheckReport> check;
 };
 FailedCheck read_failed_check(const Record& failed);

@@ -23,15 +23,15 @@ namespace tacipc {
 namespace fs = std::filesystem;
 namespace {
 
-/// Made samples whose bytes are counted.
+/// Number of made samples whose bytes are counted.
 constexpr std::size_t kMeasuredFolders = 200;
 
 /// Samples of one gel and one motion.
 struct Group {
   std::size_t planned = 0;
   std::size_t timed = 0, weighed = 0;                   // made samples with known seconds, and with known bytes
-  double seconds = 0.0, bytes = 0.0;                    // of these
-  double modelled_seconds = 0.0, modelled_bytes = 0.0;  // of one sample
+  double seconds = 0.0, bytes = 0.0;                    // sums over these samples
+  double modelled_seconds = 0.0, modelled_bytes = 0.0;  // values of one sample
 };
 
 GelSize size_of(const Record& tetmesh) {
@@ -68,7 +68,7 @@ RenderedFrames frames_of_render(const fs::path& dataset) {
   return read_rendered_frames(dataset / "plan" / path);
 }
 
-/// \param presses of an ensemble, beside the sample
+/// \param presses presses of an ensemble for the sample
 std::optional<double> processor_seconds(const fs::path& sample, const std::vector<std::string>& presses) {
   std::optional<double> seconds;
   for (const char* stage : {"press", "render"})
@@ -85,7 +85,7 @@ double allocated_bytes(const fs::path& path) {
   return ::lstat(path.c_str(), &found) == 0 ? 512.0 * static_cast<double>(found.st_blocks) : 0.0;
 }
 
-/// What a folder takes on the disk.
+/// Bytes of a folder on disk.
 double disk_bytes(const fs::path& folder) {
   double bytes = allocated_bytes(folder);
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
@@ -93,7 +93,7 @@ double disk_bytes(const fs::path& folder) {
   return bytes;
 }
 
-/// Whether the i-th of `count` is among kMeasuredFolders that are spread over all.
+/// True if the i-th of `count` samples is among kMeasuredFolders evenly spread ones.
 bool is_weighed(std::size_t i, std::size_t count) {
   return count <= kMeasuredFolders || (i + 1) * kMeasuredFolders / count != i * kMeasuredFolders / count;
 }
@@ -109,19 +109,19 @@ CostModel CostModel::read(ConfigReader& in) {
 }
 
 double modelled_seconds(const CostModel& model, const GelSize& gel, const MotionLength& motion, RenderedFrames frames) {
-  // On average over a press half of a third of the front touches.
+  // On average over a press, half of a third of the front is in contact.
   const double touching = gel.front_vertices / 6.0;
   const double frame = std::pow(gel.vertices / 1000.0, model.vertices_exponent) *
                        std::pow(1.0 + touching / 100.0, model.contacts_exponent) *
                        (gel.poissons_ratio >= kAveragedVolumeFrom ? model.averaged_volume_factor : 1.0);
-  constexpr double kStart_s = 0.1, kPixel_s = 5e-6;  // of both stages; of render, for a frame
+  constexpr double kStart_s = 0.1, kPixel_s = 5e-6;  // start of both stages; render time per pixel of a frame
   return frame * (model.press_frame_s * motion.press_frames + model.motion_frame_s * motion.other_frames) + kStart_s +
          kPixel_s * gel.pixels * count_rendered(frames, motion.press_frames + motion.other_frames, motion.kinds);
 }
 
 double modelled_bytes(const GelSize& gel, const MotionLength& motion, RenderedFrames frames) {
-  // Of a frame of press: a position of each vertex; two forces and a state of each one of the front; the rest, most of
-  // it tractions and markers. Of a pixel that render makes: its pictures, with the usual maps.
+  // Bytes. Per frame of press: a position for each vertex; two forces and a state for each front vertex; the rest,
+  // mostly tractions and markers. Per rendered pixel: its pictures, with the usual maps.
   constexpr double kVertex = 24.0, kFrontVertex = 49.0, kFrame = 63000.0, kPixel = 8.0;
   const int all = motion.press_frames + motion.other_frames + 1;
   return all * (kVertex * gel.vertices + kFrontVertex * gel.front_vertices + kFrame) +
@@ -156,7 +156,7 @@ CostEstimate estimate_cost(const fs::path& dataset, const CostModel& model) {
       group.modelled_bytes = modelled_bytes(gels[gel], motions[row.motion], frames);
       if (has_presses) {
         GelSize of_members = size_of_gel(row.sensor + "-" + (ensemble->mesh.empty() ? row.mesh : ensemble->mesh));
-        of_members.pixels = 0.0;  // nobody looks
+        of_members.pixels = 0.0;  // members are not rendered
         const auto count = static_cast<double>(presses.size());
         group.modelled_seconds += count * modelled_seconds(model, of_members, motions[row.motion], frames);
         group.modelled_bytes += count * modelled_bytes(of_members, motions[row.motion], frames);

@@ -22,7 +22,7 @@ namespace tacipc {
 namespace fs = std::filesystem;
 namespace {
 
-/// The lock of a stage of a sample, if nobody else has it.
+/// Lock of a stage of a sample, if it is free.
 class MakingLock {
  public:
   explicit MakingLock(const fs::path& stage_folder)
@@ -44,7 +44,7 @@ struct Packed {
   std::string press_sha256, render_sha256;
 };
 
-/// By id. Samples of `open` shards, in which one is not made, are among them.
+/// Packed samples by id, including those of `open_shards`, in which a sample is not made.
 std::map<std::string, Packed> packed_samples(const fs::path& manifest, std::set<std::string>& open_shards) {
   if (!fs::exists(manifest))
     throw DataError("{} is not packed; nothing is removed", manifest.parent_path().parent_path().string());
@@ -63,7 +63,7 @@ std::map<std::string, Packed> packed_samples(const fs::path& manifest, std::set<
 }
 
 void remove_outputs(const fs::path& folder, const std::string& stage) {
-  // First the mark, so that nobody takes what is left for whole.
+  // The mark is written first, so that the remaining files never pass for a complete sample.
   write_file(folder / ".dropped", "");
   std::set<fs::path> folders;
   for (const std::string& name : Record::from_file(folder / (stage + ".yaml")).section("outputs").keys()) {
@@ -75,7 +75,7 @@ void remove_outputs(const fs::path& folder, const std::string& stage) {
   for (auto below = folders.rbegin(); below != folders.rend(); ++below) fs::remove(folder / *below, not_empty);
 }
 
-/// What members of an ensemble have pressed beside a sample. One that is being made stays.
+/// Removes the presses of ensemble members for a sample, except one that is being made.
 void drop_members(const fs::path& sample_folder) {
   const fs::path all = member_presses(sample_folder);
   if (!fs::is_directory(all)) return;

@@ -1,4 +1,4 @@
-// What make asks of a planned dataset: how far it is, what it costs, what its shards are packed from, what may go.
+// Answers make's queries on a planned dataset: progress, costs, inputs of shards, removable files.
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <sys/statvfs.h>
@@ -30,7 +30,7 @@ double free_bytes(const fs::path& folder) {
   return static_cast<double>(disk.f_frsize) * static_cast<double>(disk.f_bavail);
 }
 
-/// Runs what a command asks for; messages begin with `what`. Returns the exit code.
+/// Runs a command; messages begin with `what`. \return exit code
 int run(const char* what, const std::function<int()>& body) {
   try {
     return body();

@@ -21,7 +21,7 @@ namespace tacipc {
 namespace fs = std::filesystem;
 namespace {
 
-/// When a file was last written, to the nanosecond; empty if there is none.
+/// Time of a file's last change, to the nanosecond; empty if there is no file.
 std::string time_text(const fs::path& file) {
   struct stat found {};
   if (::stat(file.c_str(), &found) != 0) return "";
@@ -57,13 +57,13 @@ void write_pack_inputs(const fs::path& dataset, const fs::path& profile) {
 
   const std::string shared = shared_configuration(configuration);
   std::string common = sha256(shared) + sha256_of_file(profile);
-  std::vector<std::string> presses;  // beside each sample
+  std::vector<std::string> presses;  // presses for each sample
   if (const auto ensemble = ensemble_of_dataset(dataset)) {
     common += sha256_of_file(dataset / kEnsembleFile);
     presses = ensemble->presses();
   }
   common += "\n";
-  std::map<std::string, std::string> inputs;  // of each shard
+  std::map<std::string, std::string> inputs;  // inputs of each shard
   std::string names, records;
   for_each_planned(table, std::nullopt, [&](const PlannedRow& row) {
     std::string& text = inputs[row.shard];
@@ -91,8 +91,8 @@ void write_pack_inputs(const fs::path& dataset, const fs::path& profile) {
   for (const auto& [shard, text] : inputs) {
     const fs::path file = shards / (shard + ".inputs");
     if (!replace_if_changed(file, text)) continue;
-    // A shard of which a new packing was refused still is what it was packed from: where that has come back, it is not
-    // packed again.
+    // A shard whose repacking failed still corresponds to its earlier inputs. If these have come back, it is not packed
+    // again.
     const fs::path record = shards / shard / "pack.yaml", packed_from = shards / shard / "packed.inputs";
     if (fs::exists(record) && holds(packed_from, text) &&
         fs::last_write_time(record) <= fs::last_write_time(packed_from))

@@ -1,4 +1,4 @@
-// The table of a plan, for those who read it while another run may be planning anew.
+// Table of a plan, for readers while another run may be planning again.
 #pragma once
 
 #include <filesystem>
@@ -6,13 +6,13 @@
 
 namespace tacipc {
 
-/// Waits, at most ten minutes, while somebody holds the lock of the stage plan. Returns whether nobody does.
+/// Waits while somebody holds the lock of the stage plan, at most ten minutes. \return true if the lock is free
 bool wait_for_plan(const std::filesystem::path& dataset);
 
-/// The table. \throw DataError if there is none yet
+/// Path of the table. \throw DataError if there is none yet
 std::filesystem::path samples_table(const std::filesystem::path& dataset);
 
-/// Last part of a dataset's folder, as messages name it.
+/// Last component of a dataset's folder, as messages name it.
 std::string name_of_dataset(const std::filesystem::path& dataset);
 
 }  // namespace tacipc

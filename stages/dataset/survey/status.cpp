@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kRecent_s = 600.0;
 
-/// When a file was last written, in seconds; nothing if it is gone.
+/// Time of a file's last change, in seconds; nothing if it is gone.
 std::optional<double> time_of(const fs::path& file) {
   struct stat found {};
   if (::stat(file.c_str(), &found) != 0) return std::nullopt;

@@ -1,4 +1,4 @@
-// A photograph without contact from photographs with contacts at different places.
+// Makes a photograph without contact from photographs with contacts at different positions.
 #pragma once
 
 #include <vector>
@@ -9,21 +9,25 @@
 
 namespace tacipc {
 
+/// Configuration of the stage background.
 struct BackgroundConfig {
-  double contact_radii = 0.0;  // farther than so many radii from the contact's centre a photograph counts
-  int least_photographs = 3;   // of those that count at a pixel; fewer give no median
+  double contact_radii =
+      0.0;  // a photograph counts at pixels farther from the contact's centre than this number of contact radii
+  int least_photographs = 3;  // least number of photographs that must count at a pixel
 
   static BackgroundConfig read(ConfigReader& in);
 };
 
+/// The median image and its statistics.
 struct MedianBackground {
   ByteImage image;
-  int fewest = 0;  // photographs that count, at the pixel that has fewest
+  int fewest = 0;  // least number of photographs that count at any pixel
   double mean = 0.0;
 };
 
-/// Per pixel and channel the median over the photographs that show no contact there; of an even number the mean of the
-/// two in the middle, halves up. \throw DataError, naming the pixel, if fewer than least_photographs count there
+/// Median per pixel and channel over the photographs without contact there. For an even number it is the mean of the
+/// two middle values, halves rounded up.
+/// \throw DataError, naming the pixel, if fewer than least_photographs count there
 /// \pre as many photographs as labels, all of one size
 MedianBackground median_background(const std::vector<ByteImage>& photographs, const std::vector<BallLabel>& labels,
                                    const BackgroundConfig& config);

@@ -20,7 +20,7 @@
 namespace tacipc {
 namespace {
 
-/// Twice the residual of the model, about grey.
+/// Picture of twice the model's residual around grey.
 ByteImage residual_picture(const ByteImage& simulated, const ByteImage& real) {
   ByteImage out = simulated;
   for (std::size_t i = 0; i < out.pixels.size(); ++i)
@@ -81,7 +81,7 @@ Value::Map summary_of(const LightFit& fit, std::size_t balls, const std::vector<
   return summary;
 }
 
-/// The sensor with the light found in place of its LEDs, beside the photograph that this light changes.
+/// Writes the sensor with the fitted light in place of its LEDs, next to the photograph that this light changes.
 void write_calibrated_sensor(Stage& stage, const LightField& light) {
   const auto section = light.to_value().map().front();
   const std::vector<SensorChange> changes{{"leds"},
@@ -97,7 +97,7 @@ void write_calibrated_sensor(Stage& stage, const LightField& light) {
   write_file(stage.output("reference.png"), read_file(stage.input("--background")));
 }
 
-/// Nearer than this the ball counts as touching the membrane, in balls.csv.
+/// Gap below which the ball counts as touching the membrane, in balls.csv.
 constexpr double kTouchingM = 2e-5;
 
 std::vector<KnownObject> read_objects(Stage& stage, const ByteImage& background, const CalibrateConfig& config,

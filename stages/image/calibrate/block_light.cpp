@@ -52,7 +52,7 @@ BlockTracer::BlockTracer(BlockTracer&&) noexcept = default;
 TraceResult BlockTracer::trace_blocks(const Sensor& sensor, const Eigen::Vector3d& offsets_px) {
   if (label_) {
     const BallPlace place = ball_place(*press_, *label_, offsets_px, sensor);
-    // The finished press is moved there: that it then stands nearer to the rim is neglected.
+    // The finished press is moved there. Its changed distance to the rim is neglected.
     const Eigen::RowVector3d shift(place.x_m, place.y_m, 0.0);
     membrane_.positions = press_->at_depth(place.depth_m).rowwise() + shift;
     membrane_.rest = press_->frames[0].rowwise() + shift;
@@ -64,7 +64,7 @@ TraceResult BlockTracer::trace_blocks(const Sensor& sensor, const Eigen::Vector3
 
 const BlockLight& BlockTracer::light(const Eigen::VectorXd& key, const Sensor& sensor,
                                      const Eigen::Vector3d& offsets_px) {
-  constexpr std::size_t kRemembered = 2;  // where the fit stands, and one step beside
+  constexpr std::size_t kRemembered = 2;  // for the current state of the fit and one trial step
   const auto known = std::ranges::find_if(remembered_, [&](const auto& one) { return one.first == key; });
   if (known != remembered_.end()) {
     std::rotate(known, known + 1, remembered_.end());

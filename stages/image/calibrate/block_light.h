@@ -1,4 +1,4 @@
-// What each light group gives each block of a photograph, traced with a camera of one pixel per block.
+// Contribution of each light group to each block of a photograph, traced with one camera pixel per block.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,36 +16,38 @@
 
 namespace tacipc {
 
-/// Signal of every block, row by row, in R, G and B: a column for each light group at colour 1, then one for an ambient
-/// of 1; vignetting is in, exposure 1.
+/// Signal of every block, row by row, in R, G and B, with vignetting, at exposure 1. One column per light group at
+/// colour 1, then one column for an ambient of 1.
 using BlockLight = std::array<Eigen::MatrixXd, 3>;
 
+/// Position of a ball's centre in frame S, and its depth.
 struct BallPlace {
   double x_m = 0.0;
   double y_m = 0.0;
   double depth_m = 0.0;
 };
 
-/// Where a label, changed by offsets of centre and radius (pixels), puts the ball: centre and rim as the camera sees
-/// them on the plane z = 0, and the depth at which the rim is that wide. \throw DataError, naming the label's image, if
-/// the camera does not see the plane there or the press does not reach that contact.
+/// Position of the ball for a label changed by offsets of centre and radius (pixels). The camera's view of centre and
+/// rim on the plane z = 0 gives the position; the depth is the one at which the rim has that width.
+/// \throw DataError, naming the label's image, if the camera does not see the plane there or the press does not reach
+/// that contact
 BallPlace ball_place(const BallPress& press, const BallLabel& label, const Eigen::Vector3d& offsets_px,
                      const Sensor& sensor);
 
-/// One photograph's membrane, of the gel at rest or under a ball.
+/// Traces the light of one photograph's membrane: of the gel at rest, or under a ball.
 class BlockTracer {
  public:
-  /// The gel at rest.
+  /// Traces the gel at rest.
   BlockTracer(const Sensor& sensor, int block_px, const TraceSettings& settings);
-  /// Under a ball. \pre `press` lives as long as this
+  /// Traces the gel under a ball. \pre `press` outlives this object
   BlockTracer(const BallPress& press, BallLabel label, int block_px, const TraceSettings& settings);
   ~BlockTracer();
   BlockTracer(BlockTracer&&) noexcept;
 
   const std::optional<BallLabel>& label() const { return label_; }
-  /// `key` stands for what sensor and offsets are: of the last two keys the light is remembered.
+  /// Light for a sensor and offsets. `key` identifies them; the light of the last two keys is cached.
   const BlockLight& light(const Eigen::VectorXd& key, const Sensor& sensor, const Eigen::Vector3d& offsets_px);
-  /// Per block whether it and its neighbours show nothing but the gel and itself no printed marker.
+  /// For each block: true if it and its neighbours show only gel, and it shows no printed marker.
   std::vector<bool> clean_blocks(const Sensor& sensor);
 
  private:
@@ -57,7 +59,7 @@ class BlockTracer {
   TraceSettings settings_;
   Membrane membrane_;
   std::unique_ptr<RayScene> scene_;
-  std::vector<std::pair<Eigen::VectorXd, BlockLight>> remembered_ = {};  // the last used last
+  std::vector<std::pair<Eigen::VectorXd, BlockLight>> remembered_ = {};  // cache; the most recently used entry is last
 };
 
 }  // namespace tacipc

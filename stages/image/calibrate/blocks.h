@@ -1,4 +1,4 @@
-// Images of one value per block of pixels.
+// Reduces an image to one value per block of pixels.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace tacipc {
 
-/// reduce(values of a channel in the block), for each whole block of `block` × `block` pixels; a rest at the right and
-/// lower border is left out.
+/// Image of reduce(values of a channel in the block) for each whole block of `block` × `block` pixels; a remainder at
+/// the right and lower border is left out.
 template <typename Pixel, typename Reduce>
 FloatImage reduced_blocks(const Image<Pixel>& image, int block, Reduce&& reduce) {
   FloatImage out(image.width / block, image.height / block, image.channels);
@@ -24,9 +24,9 @@ FloatImage reduced_blocks(const Image<Pixel>& image, int block, Reduce&& reduce)
   return out;
 }
 
-/// Midmean of each block of `block` × `block` pixels and channel, the mean over the middle half of the sorted codes:
-/// dust, scratches and single markers drop out as with the median, but noise averages out below one code. NaN where one
-/// of those codes is 0 or 255: clipped. \pre block divides width and height
+/// Midmean of each block of `block` × `block` pixels and channel: the mean over the middle half of the sorted grey
+/// levels. Dust, scratches and single markers drop out as with the median, but noise averages out below one level. NaN
+/// if one of these levels is 0 or 255, which means clipped. \pre block divides width and height
 FloatImage block_codes(const ByteImage& image, int block);
 
 }  // namespace tacipc

@@ -27,11 +27,11 @@ std::vector<ContactPixel> disc_pixels(const BallDisc& disc, const ByteImage& pho
     for (int x = 0; x < photograph.width; ++x) {
       const double dx = x - disc.x_px, dy = y - disc.y_px, squared = dx * dx + dy * dy;
       if (!(squared < reach * reach)) continue;
-      // h = √(R² − r²) + constant rises towards the centre.
+      // The surface h = √(R² − r²) + constant rises towards the centre.
       const double height = std::sqrt(disc.radius_px * disc.radius_px - squared);
       ContactPixel& pixel = pixels.emplace_back(contact_pixel(x, y, photograph, background, drift));
-      pixel.slope_x = (0.0 - dx) / height;  // 0 and not −0 in the centre's row and column, where −dx would turn the
-      pixel.slope_y = (0.0 - dy) / height;  // direction from π to −π: as published, whose offsets are whole numbers
+      pixel.slope_x = (0.0 - dx) / height;  // 0 instead of −0 in the centre's row and column, where −dx would turn the
+      pixel.slope_y = (0.0 - dy) / height;  // direction from π to −π; as published, whose offsets are integers
     }
   }
   return pixels;

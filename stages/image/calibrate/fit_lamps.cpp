@@ -20,7 +20,7 @@ Eigen::VectorXd parameters_of(const std::vector<LampGuess>& lamps, const Calibra
   return u;
 }
 
-/// How far the parameters of lamps may go, and by which steps.
+/// Bounds and steps of the light sources' parameters.
 GaussNewtonSettings range_of(const CalibrateConfig& config) {
   const LampBounds& bounds = config.bounds;
   std::vector<LampGuess> lower, upper;
@@ -35,7 +35,7 @@ GaussNewtonSettings range_of(const CalibrateConfig& config) {
       .step = Eigen::VectorXd::Constant(lowest.size(), 1e-3), .lower = lowest, .upper = parameters_of(upper, config)};
 }
 
-/// Residuals of the best weights with lamps at some parameters.
+/// Residuals of the best weights for given parameters of the light sources.
 Eigen::VectorXd projected_residuals(const std::vector<const Contact*>& contacts, const std::vector<LampGuess>& lamps,
                                     LightGeometry& geometry, const CalibrateConfig& config) {
   set_lamps(geometry, lamps);

@@ -28,16 +28,16 @@ double label_radius_m(const Ball& ball, const Sensor& sensor) {
   return ball.label.radius_px * sensor.camera.window_width_m / sensor.camera.width_px;
 }
 
-/// Gap at the labels' radii, the median over balls: a label that found something else does not matter.
+/// Gap at the labels' radii, the median over balls, so that a single wrong label does not matter.
 double fitted_gap(const std::vector<Ball>& balls, const BallPress& press, const Sensor& sensor) {
   std::vector<double> gaps;
   for (const Ball& ball : balls)
     gaps.push_back(
         gap_at_radius(press.at_depth(ball.depth_m), ball.depth_m, press.radius_m, label_radius_m(ball, sensor)));
-  return std::max(upper_median(std::move(gaps)), 1e-6);  // nearer than the barrier lets them come, there is no rim
+  return std::max(upper_median(std::move(gaps)), 1e-6);  // below the barrier's smallest gap there is no rim
 }
 
-/// Sets each contact's residual under some weights. Returns that of all samples, codes.
+/// Sets each contact's residual for given weights. \return residual of all samples, grey levels
 double measure_misfit(const std::vector<Contact*>& contacts, const std::vector<Eigen::MatrixXd>& features,
                       const Codes& weights) {
   double squares = 0.0, count = 0.0;
@@ -50,11 +50,11 @@ double measure_misfit(const std::vector<Contact*>& contacts, const std::vector<E
   return std::sqrt(squares / count);
 }
 
-/// Fits centre and depth of one ball to its photograph under the light as it is, held by its label.
+/// Fits centre and depth of one ball to its photograph under the current light, with its label as a prior.
 void fit_ball(Ball& ball, const BallPress& press, const Sensor& sensor, const LightField& light, double sigma_px,
               const CalibrateConfig& config) {
   const double pixel = sensor.camera.window_width_m / sensor.camera.width_px;
-  // The label's radius, where two of the centre's uncertainties make one of the depth's: d ≈ a² / R.
+  // Prior of the label's radius: with d ≈ a² / R, its deviation is two of the centre's in units of the depth.
   const double contact = label_radius_m(ball, sensor);
   const Vector3 label(ball.x_m, ball.y_m, ball.depth_m);
   const Vector3 sigma = sigma_px * pixel * Vector3(1.0, 1.0, std::max(2.0 * contact / config.ball_radius_m, 0.1));
@@ -95,7 +95,7 @@ std::vector<Part> parts_of(const LightGeometry& geometry) {
   return parts;
 }
 
-/// Error of photographs, or parts of them, under the light of what was kept in the fit.
+/// Error of photographs, or parts of them, under the light fitted to the others.
 class LeftOut {
  public:
   void add(const NormalEquations& left, const NormalEquations& kept, double ridge) {
@@ -111,7 +111,7 @@ class LeftOut {
   double squares_ = 0.0, count_ = 0.0;
 };
 
-/// The balls come first among `equations`; the objects behind them are never left out.
+/// The balls come first among `equations`; the objects after them are never left out.
 double held_out_rmse(const std::vector<NormalEquations>& equations, std::size_t balls, const Part& part,
                      const CalibrateConfig& config) {
   LeftOut error;
@@ -126,7 +126,7 @@ double held_out_rmse(const std::vector<NormalEquations>& equations, std::size_t 
   return error.rmse();
 }
 
-/// All photographs but one.
+/// Sum over all photographs but one.
 NormalEquations all_but(std::size_t which, const std::vector<NormalEquations>& equations, const Part& part) {
   NormalEquations others;
   for (std::size_t b = 0; b < equations.size(); ++b)
@@ -134,7 +134,7 @@ NormalEquations all_but(std::size_t which, const std::vector<NormalEquations>& e
   return others;
 }
 
-/// Of one photograph under the light of all others.
+/// Error of one photograph under the light of all others.
 double left_out_rmse(const std::vector<NormalEquations>& equations, std::size_t which, const Part& part,
                      const CalibrateConfig& config) {
   LeftOut error;
@@ -142,8 +142,8 @@ double left_out_rmse(const std::vector<NormalEquations>& equations, std::size_t 
   return error.rmse();
 }
 
-/// Of blocks of 16 × 16 pixels of an object's photograph, an eighth of them left out of the fit at a time: neighbouring
-/// pixels are alike, and left out one by one they would tell nothing.
+/// Error of blocks of 16 × 16 pixels of an object's photograph. An eighth of them is left out of the fit at a time:
+/// neighbouring pixels are similar, so single pixels left out would show no error.
 double left_out_blocks_rmse(const KnownObject& object, std::size_t which, const std::vector<NormalEquations>& equations,
                             const LightField& light, const Part& part, const CalibrateConfig& config) {
   constexpr int kBlockPx = 16;
@@ -226,7 +226,7 @@ LightFit fit_light(std::vector<Ball>& balls, std::vector<KnownObject>& objects, 
         fit_object(objects[b - balls.size()], sensor, fit.light);
         return;
       }
-      Ball ball = labelled[b];  // the label holds it, not the round before
+      Ball ball = labelled[b];  // the label is the prior, not the previous round
       ball.rmse_codes = balls[b].rmse_codes;
       fit_ball(ball, *press, sensor, fit.light, config.label_sigma_px, config);
       balls[b] = ball;
@@ -235,7 +235,8 @@ LightFit fit_light(std::vector<Ball>& balls, std::vector<KnownObject>& objects, 
     const double before = fit.contact_gap_m;
     fit.contact_gap_m = fitted_gap(balls, *press, sensor);
     constexpr double kGapTolerance = 0.01;
-    if (std::abs(fit.contact_gap_m - before) < kGapTolerance * before) rounds = round + 2;  // the light once more
+    if (std::abs(fit.contact_gap_m - before) < kGapTolerance * before)
+      rounds = round + 2;  // then one last fit of the light
     log_info("round {}: gap at the rim {:.4f} mm", round + 1, 1e3 * fit.contact_gap_m);
     press->set_rim(fit.contact_gap_m);
     for (Ball& ball : labelled) ball.depth_m = press->depth_of_contact(label_radius_m(ball, sensor), ball.label.image);

@@ -18,12 +18,12 @@ MetallicLamps lamps_at(MetallicLamps lamps, const Eigen::VectorXd& u) {
   return lamps;
 }
 
-/// Where a sample's ray meets the object in the gel, and the object's outward normal there.
+/// Intersection of a sample's ray with the object in the gel, and the object's outward normal there.
 struct Meeting {
   Vector3 point, normal;
 };
 
-/// `object(x, y, ray)`: a Meeting, or none where the front is met first.
+/// Samples with light. `object(x, y, ray)` gives a Meeting, or nothing if the ray meets the front first.
 template <typename Object>
 MetallicSamples lit_samples(const Samples& samples, const std::vector<MetallicLamp>& lamps, const Sensor& sensor,
                             Object&& object) {
@@ -83,7 +83,7 @@ double metallic_change(const MetallicSamples& samples, const MetallicLamps& lamp
 
 namespace {
 
-/// Change − photograph of each sample and channel, codes; 0 where a sample is not used.
+/// Change − photograph of each sample and channel, grey levels; 0 for an unused sample.
 Eigen::VectorXd errors_of(const std::vector<MetallicSamples>& balls, const MetallicLamps& lamps) {
   std::vector<double> all;
   for (const MetallicSamples& ball : balls)

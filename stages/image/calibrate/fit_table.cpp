@@ -19,7 +19,7 @@ int bin_of(const SlopeTable& table, const ContactPixel& pixel) {
          table.direction_bin(pixel.slope_x, pixel.slope_y);
 }
 
-/// One ball as released: a value and a place for every bin.
+/// Table of one ball, as released: a value and a position for every bin.
 struct BallTable {
   std::vector<std::array<double, 3>> value;
   std::vector<std::array<double, kTerms>> terms;
@@ -38,13 +38,13 @@ BallTable table_of_ball(const std::vector<ContactPixel>& pixels, const SlopeTabl
     value[bin] = pixel.target;
     terms[bin] = SlopeTable::terms(pixel.x, pixel.y, width, height);
     has_place[bin] = true;
-    for (std::size_t c = 0; c < 3; ++c) has_value[c][bin] = pixel.target[c] != 0.0;  // 0 counts as none
+    for (std::size_t c = 0; c < 3; ++c) has_value[c][bin] = pixel.target[c] != 0.0;  // 0 counts as missing
   }
   BallTable out{.value = value, .terms = terms};
   const auto place = nearest_marked(has_place, table.bins, false);
   for (std::size_t i = 0; i < size; ++i) out.terms[i] = terms[place[i]];
   for (std::size_t c = 0; c < 3; ++c) {
-    if (std::ranges::find(has_value[c], true) == has_value[c].end()) continue;  // all are 0
+    if (std::ranges::find(has_value[c], true) == has_value[c].end()) continue;  // all values are 0
     const auto from = nearest_marked(has_value[c], table.bins, false);
     for (std::size_t i = 0; i < size; ++i) out.value[i][c] = value[from[i]][c];
   }
@@ -74,7 +74,7 @@ SlopeTable released_table(const std::vector<std::vector<ContactPixel>>& balls, i
   return table;
 }
 
-/// Σ w wᵀ and Σ w ΔI of a bin, channel by channel.
+/// Normal equations of a bin, Σ w wᵀ and Σ w ΔI, channel by channel.
 struct BinEquations {
   std::array<Eigen::Matrix<double, kTerms, kTerms>, 3> gram;
   std::array<Eigen::Matrix<double, kTerms, 1>, 3> moment;
@@ -92,7 +92,7 @@ struct BinEquations {
   double pixels(std::size_t channel) const { return gram[channel](kTerms - 1, kTerms - 1); }
 };
 
-/// Gaussian over bins, cut at 4 σ: along inclination nothing lies beyond the ends, direction goes around.
+/// Applies a Gaussian over bins, cut at 4 σ. Inclination ends at its limits, direction is periodic.
 std::vector<BinEquations> smoothed(const std::vector<BinEquations>& in, int bins, double sigma) {
   if (sigma == 0.0) return in;
   const int reach = static_cast<int>(std::ceil(4.0 * sigma)), around = bins - 1;
@@ -120,7 +120,7 @@ SlopeTable pooled_table(const std::vector<std::vector<ContactPixel>>& balls, int
   for (const auto& pixels : balls) {
     for (const ContactPixel& pixel : pixels) {
       auto bin = static_cast<std::size_t>(bin_of(table, pixel));
-      // The last direction is −x alone, where the first begins.
+      // The last direction is only −x, where the first begins.
       if (bin % static_cast<std::size_t>(bins) == static_cast<std::size_t>(bins - 1))
         bin -= static_cast<std::size_t>(bins - 1);
       const auto terms = SlopeTable::terms(pixel.x, pixel.y, width, height);
@@ -137,7 +137,7 @@ SlopeTable pooled_table(const std::vector<std::vector<ContactPixel>>& balls, int
     std::vector<bool> solved(equations.size(), false);
     for (std::size_t i = 0; i < equations.size(); ++i) {
       const double count = equations[i].pixels(c);
-      if (count < 1e-9) continue;  // farther than the Gaussian reaches, or nearly
+      if (count < 1e-9) continue;  // at or beyond the reach of the Gaussian
       Eigen::Matrix<double, kTerms, kTerms> system = equations[i].gram[c];
       for (int k = 0; k + 1 < kTerms; ++k) system(k, k) += settings.ridge * count;
       const Eigen::Matrix<double, kTerms, 1> weights = system.ldlt().solve(equations[i].moment[c]);
@@ -158,7 +158,7 @@ SlopeTable pooled_table(const std::vector<std::vector<ContactPixel>>& balls, int
 }  // namespace
 
 std::vector<std::size_t> nearest_marked(const std::vector<bool>& marked, int bins, bool around) {
-  // The nearest one above or below in each direction, then the best of all directions.
+  // First the nearest marked bin above or below in each direction, then the best of all directions.
   const auto at = [&](int i, int j) { return static_cast<std::size_t>(i * bins + j); };
   std::vector<int> row(marked.size(), -1);
   for (int j = 0; j < bins; ++j) {

@@ -40,7 +40,7 @@ GaussNewtonResult gauss_newton(const std::function<Eigen::VectorXd(const Eigen::
     ++result.iterations;
     for (Eigen::Index i = 0; i < n; ++i) {
       Eigen::VectorXd moved = result.parameters;
-      // Backwards where forwards would leave the bounds.
+      // Backward difference if the forward step would leave the bounds.
       const double step = moved[i] + settings.step[i] > settings.upper[i] ? -settings.step[i] : settings.step[i];
       moved[i] += step;
       jacobian.col(i) = (residuals(moved) - r) / step;

@@ -6,27 +6,29 @@
 
 namespace tacipc {
 
+/// Settings of the iteration.
 struct GaussNewtonSettings {
-  Eigen::VectorXd step;   // of the forward differences, per parameter
-  Eigen::VectorXd lower;  // bounds: steps end there
+  Eigen::VectorXd step;   // steps of the forward differences, per parameter
+  Eigen::VectorXd lower;  // bounds; steps end there
   Eigen::VectorXd upper;
   int max_iterations = 20;
-  double relative_decrease = 1e-5;  // of the sum of squares: less ends the iteration
+  double relative_decrease = 1e-5;  // the iteration ends if the sum of squares decreases by less than this fraction
 };
 
+/// Result of the iteration.
 struct GaussNewtonResult {
   Eigen::VectorXd parameters;
   double sum_of_squares = 0.0;
   Eigen::MatrixXd covariance =
-      {};  // σ² (JᵀJ)⁻¹ with σ² = sum of squares / (rows − parameters); residuals taken independent
-  Eigen::MatrixXd inverse = {};  // (JᵀJ)⁻¹: the covariance of residuals that are in units of their deviations
-  double condition = 0.0;        // of J with columns scaled to unit length
+      {};  // σ² (JᵀJ)⁻¹ with σ² = sum of squares / (rows − parameters); assumes independent residuals
+  Eigen::MatrixXd inverse = {};  // (JᵀJ)⁻¹: the covariance if residuals are in units of their standard deviations
+  double condition = 0.0;        // condition of J with columns scaled to unit length
   int iterations = 0;
   bool converged = false;
 };
 
-/// Minimises |r(u)|² from `start`. J by forward differences; (JᵀJ + λ diag JᵀJ) d = −Jᵀ r, λ tenfold after a step that
-/// does not improve it, a tenth after one that does. \pre more residuals than parameters
+/// Minimises |r(u)|² from `start`, with J by forward differences: (JᵀJ + λ diag JᵀJ) d = −Jᵀ r. λ grows tenfold after a
+/// step that does not decrease |r|², and falls to a tenth after one that does. \pre more residuals than parameters
 GaussNewtonResult gauss_newton(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& residuals,
                                const Eigen::VectorXd& start, const GaussNewtonSettings& settings);
 

@@ -60,7 +60,7 @@ Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen:
     if (enter < 0) return x;
     free.push_back(enter);
     Eigen::VectorXd wanted = solve_free();
-    // Walk towards the free optimum as far as nothing turns negative; what reaches zero leaves.
+    // Move towards the free optimum until a value would turn negative; values that reach zero become fixed.
     while (!free.empty() && wanted(free).minCoeff() <= 0.0) {
       double share = 1.0;
       for (const Eigen::Index i : free)
@@ -103,7 +103,7 @@ IntensityFit fit_intensities(const std::vector<FloatImage>& basis, const FloatIm
       weight[i] = 1.0 / std::sqrt(config.shot_gain * y[i] + config.read_noise * config.read_noise);
     }
     const Eigen::MatrixXd weighted = weight.asDiagonal() * a;
-    // Unit columns: LEDs of any strength and the veil are then alike to the solver.
+    // Unit columns: the solver then treats LEDs of any strength and the veil alike.
     const Eigen::VectorXd scale = weighted.colwise().norm().cwiseMax(1e-300).cwiseInverse();
     const Eigen::VectorXd x =
         scale.cwiseProduct(nonnegative_least_squares(weighted * scale.asDiagonal(), weight.cwiseProduct(y)));

@@ -1,4 +1,4 @@
-// Colours of known LEDs from one photograph without contact.
+// Fits the colours of known LEDs to one photograph without contact.
 #pragma once
 
 #include <array>
@@ -13,35 +13,36 @@ namespace tacipc {
 
 /// Section `intensities` of a calibrate configuration.
 struct IntensityConfig {
-  std::string curve;       // response that made the photograph: srgb or linear
+  std::string curve;       // response curve of the photograph: srgb or linear
   double shot_gain = 0.0;  // noise variance of a linear value y in 0 … 1: shot_gain · y + read_noise²
   double read_noise = 0.0;
-  int block_px = 1;  // medians over blocks this wide and high are fitted: dust and markers drop out
+  int block_px = 1;  // width and height of the blocks whose medians are fitted; dust and markers drop out
 
   static IntensityConfig read(ConfigReader& file);
 };
 
-/// y_c = Σ_l a_lc B_lc + b_c U with a ≥ 0 and veil b ≥ 0: B_l the image of LED l alone in white light, U that of a veil
-/// of 1.
+/// Fit y_c = Σ_l a_lc B_lc + b_c U with a ≥ 0 and veil b ≥ 0, where B_l is the image of LED l alone in white light and
+/// U the image of a veil of 1.
 struct IntensityFit {
-  Eigen::Matrix<double, Eigen::Dynamic, 3> rgb;  // a, per LED
+  Eigen::Matrix<double, Eigen::Dynamic, 3> rgb;  // a, one row per LED
   Vector3 veil = Vector3::Zero();                // b
-  std::array<double, 3> rmse{};                  // linear, over the blocks
-  double condition = 0.0;                        // of the LEDs' images, columns scaled to unit length
+  std::array<double, 3> rmse{};                  // error in linear light, over the blocks
+  double condition = 0.0;                        // condition of the LEDs' images, columns scaled to unit length
   double condition_with_veil = 0.0;
-  std::array<Eigen::MatrixXd, 3> covariance = {};  // of (a_c, b_c) for the noise given, as if nothing were at its bound
-  FloatImage residual;                             // linear, fit − photograph, a pixel per block
+  std::array<Eigen::MatrixXd, 3> covariance = {};  // covariance of (a_c, b_c) for the given noise, ignoring bounds
+  FloatImage residual;                             // fit − photograph in linear light, one pixel per block
 };
 
 /// Minimises |A x − y|, x ≥ 0, by active sets (Lawson and Hanson 1974, ch. 23) on the normal equations.
 /// \throw SolverError if it does not end within 10 n steps
 Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& y);
 
-/// From AᵀA: the root of its eigenvalues' ratio, A's columns scaled to unit length.
+/// Condition of A from AᵀA with A's columns scaled to unit length: the root of the eigenvalues' ratio.
 double condition_of(const Eigen::MatrixXd& gram);
 
-/// Blocks with a code 0 or 255 in a channel's median do not count there. \pre basis images and codes have three
-/// channels, the veil has one, all are of one size. \throw DataError if fewer blocks than unknowns are left
+/// Fits the LEDs. Blocks whose median is 0 or 255 in a channel do not count in it.
+/// \pre basis images and `codes` have three channels, the veil has one, all are of one size
+/// \throw DataError if fewer blocks than unknowns are left
 IntensityFit fit_intensities(const std::vector<FloatImage>& basis, const FloatImage& veil, const FloatImage& codes,
                              const IntensityConfig& config);
 

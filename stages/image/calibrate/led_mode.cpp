@@ -13,7 +13,7 @@
 namespace tacipc {
 namespace {
 
-/// Radiance as the lens's vignetting leaves it.
+/// Radiance after the lens's vignetting.
 FloatImage through_lens(const FloatImage& radiance, const Camera& camera) {
   FloatImage out = radiance;
   for (int y = 0; y < out.height; ++y)
@@ -35,7 +35,7 @@ void calibrate_leds(Stage& stage) {
   for (const auto& path : stage.inputs("--basis")) {
     basis.push_back(read_camera_exr(path, {"R", "G", "B"}, camera));
   }
-  // The images are of what reaches the lens.
+  // The images show the light before the lens.
   const FloatImage even = through_lens(FloatImage(camera.width_px, camera.height_px, 1, 1.0f), camera);
   for (FloatImage& image : basis) image = through_lens(image, camera);
   FloatImage codes(background.width, background.height, 3);

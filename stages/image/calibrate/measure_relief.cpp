@@ -9,7 +9,7 @@
 namespace tacipc {
 namespace {
 
-/// A field of a view, bilinear; the nearest border outside.
+/// Bilinear value of a view's field; outside, the nearest border value.
 template <typename Of>
 auto between(const MembraneView& view, const Eigen::Vector2d& pixel, const Of& of) {
   const double u = std::clamp(pixel.x(), 0.0, view.width - 1.001), v = std::clamp(pixel.y(), 0.0, view.height - 1.001);
@@ -20,7 +20,7 @@ auto between(const MembraneView& view, const Eigen::Vector2d& pixel, const Of& o
       .eval();
 }
 
-/// The pixel that sees the membrane over (x, y).
+/// Pixel that sees the membrane at (x, y).
 Eigen::Vector2d pixel_over(const MembraneView& view, double x, double y, double pixel_m) {
   Eigen::Vector2d pixel((x - view.rest[0].x()) / pixel_m, (y - view.rest[0].y()) / pixel_m);
   for (int step = 0; step < 6; ++step) {
@@ -30,8 +30,8 @@ Eigen::Vector2d pixel_over(const MembraneView& view, double x, double y, double 
   return pixel;
 }
 
-/// Slopes by which the print deepens the membrane at the pixels that touch: one Gauss–Newton step for each, held by a
-/// prior of deviation slope_sigma. Zero elsewhere.
+/// Slopes that the print adds to the membrane at touching pixels: one Gauss–Newton step per pixel, with a prior of
+/// standard deviation slope_sigma. Zero elsewhere.
 std::vector<Eigen::Vector2d> measure_slopes(const KnownObject& object, const ByteImage& photograph,
                                             const ByteImage& background, const LightField& light,
                                             const std::vector<char>& touched, double slope_sigma) {
@@ -94,7 +94,7 @@ PrintRelief measure_relief(const KnownObject& object, const ByteImage& photograp
   earlier.front = object.front_before;
   const MembraneView before = view_object(earlier, sensor);
 
-  // Where the object touches, as a map over the object.
+  // Contact of the object, as a map over the object.
   std::vector<char> touched(view.point.size(), 0);
   const double cosine = std::cos(object.yaw_rad), sine = std::sin(object.yaw_rad);
   const auto height = [](const MembraneView& in, const Eigen::Vector2d& at) {

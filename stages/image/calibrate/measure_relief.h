@@ -1,4 +1,4 @@
-// The relief of a known object's print, from the photograph that calibrates.
+// Measures the relief of a known object's print on the photograph that calibrates.
 #pragma once
 
 #include "common/sensor/light_field.h"
@@ -7,12 +7,13 @@
 
 namespace tacipc {
 
-/// Photometric: with J the change of code per slope, r what the light leaves of the photograph, σ the deviation of
-/// pixels outside the contact, and slopes of deviation `slope_sigma` expected,
-///   δ = (JᵀJ / σ² + 1 / slope_sigma²)⁻¹ Jᵀ r / σ²
-/// pixel by pixel, at most three deviations; clipped channels tell nothing. It is known where the object touched the
-/// gel in the frame before already, so that the membrane is its surface.
-/// \pre the object has a press, its view is the one of the fit
+/// Photometric relief. The slopes change pixel by pixel by
+///   δ = (JᵀJ / σ² + 1 / slope_sigma²)⁻¹ Jᵀ r / σ²,
+/// at most three standard deviations. J is the change of grey level per slope, r the photograph's residual under the
+/// light, σ the standard deviation of pixels outside the contact, and `slope_sigma` that of the expected slopes.
+/// Clipped channels do not count. The relief is known where the object already touched the gel in the previous frame,
+/// so that the membrane is the object's surface.
+/// \pre the object has a press, and its view is the fitted one
 PrintRelief measure_relief(const KnownObject& object, const ByteImage& photograph, const ByteImage& background,
                            const LightField& light, const Sensor& sensor, double slope_sigma);
 

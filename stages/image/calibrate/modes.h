@@ -5,16 +5,17 @@
 
 namespace tacipc {
 
-/// Light of unknown lamps from photographs of balls and known objects (fit_light.h).
+/// Fits the light of unknown light sources to photographs of balls and known objects (fit_light.h).
 void calibrate_balls(Stage& stage);
 
-/// A whole sensor file from photographs (sensor_fit.h).
+/// Fits a whole sensor file to photographs (sensor_fit.h).
 void calibrate_sensor(Stage& stage);
 
-/// Colours of LEDs and the veil from images of each LED alone (led_intensities.h).
+/// Fits the colours of LEDs and the veil to images of each LED alone (led_intensities.h).
 void calibrate_leds(Stage& stage);
 
-/// Another simulator's light from photographs of balls: a table, a network, or colours of lamps (rival_config.h).
+/// Fits another simulator's light to photographs of balls: a table, a network, or colours of light sources
+/// (rival_config.h).
 void calibrate_rival(Stage& stage);
 
 }  // namespace tacipc

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kEdge = 0.5e-3;
 
-/// Rings of equally many vertices about one in the middle.
+/// Adds rings of equally many vertices around a central one.
 void add_disc(double radius, std::vector<Eigen::Vector2d>& points, std::vector<std::array<int, 3>>& triangles) {
   constexpr int kSectors = 96;
   const int rings = std::max(2, static_cast<int>(std::ceil(radius / kEdge)));

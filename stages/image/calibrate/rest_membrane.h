@@ -1,4 +1,4 @@
-// The front of a gel at rest from its shape alone.
+// Front of a gel at rest, from its shape alone.
 #pragma once
 
 #include "common/optics/membrane.h"

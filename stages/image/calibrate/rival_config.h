@@ -1,4 +1,4 @@
-// configs/rivals/calibrate/*.yaml: how another simulator's light is fitted to the balls.
+// Content of configs/rivals/calibrate/*.yaml: fit of another simulator's light to the balls.
 #pragma once
 
 #include <cstdint>
@@ -11,28 +11,29 @@ namespace tacipc {
 /// Taxim's table [SiYuan2022].
 struct TableFit {
   int bins = 0;
-  bool pooled = false;          // every pixel counts; else as released: one of each ball in a bin
+  bool pooled = false;          // true: every pixel counts; false, as released: one pixel per ball and bin
   double smoothing_bins = 0.0;  // pooled: σ of the Gaussian over bins
-  double ridge = 0.0;           // pooled: on all but the constant, as a part of the pixels' number
-  bool flat_is_dark = false;    // the first row of inclinations is 0: a flat gel changes nothing
+  double ridge = 0.0;           // pooled: ridge on all weights but the constant, as a fraction of the number of pixels
+  bool flat_is_dark = false;    // the first row of inclinations is 0, so a flat gel changes nothing
 };
 
 /// FOTS' network [Zhao2024].
 struct NetworkFit {
   int epochs = 0;
   int batch = 0;
-  double rate = 0.0;     // of Adam
+  double rate = 0.0;     // learning rate of Adam
   double dropout = 0.0;  // after each hidden layer
   std::uint64_t seed = 0;
 };
 
+/// Configuration of the fit.
 struct RivalFit {
   enum class Model { table, network, metallic_roughness };
   Model model = Model::table;
-  bool remove_drift = true;  // each channel's mean difference far from the contact
+  bool remove_drift = true;  // remove each channel's mean difference far from the contact
   TableFit table;
   NetworkFit network;
-  MetallicLamps lamps;  // where they stand; their colours and the factor are where the fit begins
+  MetallicLamps lamps;  // positions; its colours and factor are the start of the fit
 
   static RivalFit read(ConfigReader& in);
 };

@@ -1,4 +1,4 @@
-// Another simulator's light from the same photographs of balls and known objects.
+// Fits another simulator's light to the same photographs of balls and known objects.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@
 namespace tacipc {
 namespace {
 
-/// The contacts: circles as labelled, taken as exact, or those of our fit.
+/// Contacts: circles as labelled, assumed exact, or those of TacIPC's fit.
 std::vector<BallDisc> contact_discs(const Stage& stage, const std::vector<BallLabel>& labels, const Sensor& sensor,
                                     double ball_radius_m) {
   const double pixel = sensor.camera.window_width_m / sensor.camera.width_px;
@@ -44,14 +44,15 @@ std::vector<BallDisc> contact_discs(const Stage& stage, const std::vector<BallLa
   return discs;
 }
 
-/// What photographs show, the balls first.
+/// Samples of the photographs, the balls first.
 template <typename Contact>
 struct Shown {
   std::vector<Contact> contacts;
-  std::size_t balls = 0;  // the others are known objects
+  std::size_t balls = 0;  // the remaining samples belong to known objects
 
-  /// Root mean square error of what a fold leaves out of the fit, balls alone as in our own fit, over all folds.
-  /// `errors(kept, left)`: sum of squares, and how many codes there are.
+  /// Root mean square error over all folds of the samples left out of the fit. Only balls count, as in TacIPC's own
+  /// fit.
+  /// \param errors `errors(kept, left)` gives the sum of squares and the number of values
   template <typename Errors>
   double held_out_rmse(int folds, const Errors& errors) const {
     double squares = 0.0, count = 0.0;
@@ -67,7 +68,7 @@ struct Shown {
   }
 };
 
-/// Sum over pixels in contacts of (table − photograph)², and how many codes there are.
+/// Sum over contact pixels of (table − photograph)², and the number of values.
 std::pair<double, double> table_errors(const SlopeTable& table, const std::vector<std::vector<ContactPixel>>& balls,
                                        const Camera& camera) {
   double squares = 0.0, count = 0.0;
@@ -174,7 +175,7 @@ void calibrate_rival(Stage& stage) {
       throw DataError("{}: {} is not in the gel", shapes[i].string(), objects[i].name);
     const ByteImage photograph =
         read_photograph(*stage.optional_input("--photographs") / objects[i].photograph, camera);
-    // Tables and networks learn from the contact alone: what lies about the box tells their drift.
+    // Tables and networks are trained on the contact alone; pixels around the box determine their drift.
     const Samples samples = object_samples(objects[i].grown(lamps ? config.object_margin_px : 0), photograph,
                                            background, config.fit_stride_px);
     if (lamps)

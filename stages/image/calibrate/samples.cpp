@@ -85,7 +85,7 @@ Eigen::MatrixXd gram_of(const Eigen::MatrixXd& features) {
 }  // namespace
 
 NormalEquations normal_equations(const Eigen::MatrixXd& features, const Samples& samples, const Codes& active) {
-  // Nearly all samples count in all channels: their sums are formed once.
+  // Nearly all samples count in all channels, so their sums are computed once.
   std::vector<Eigen::Index> common;
   std::array<std::vector<Eigen::Index>, 3> own;
   for (Eigen::Index i = 0; i < features.rows(); ++i) {

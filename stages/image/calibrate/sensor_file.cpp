@@ -30,7 +30,7 @@ void put(Entries& map, const std::string& key, const SensorChange& change) {
   map.emplace(entry + 1, source_key, Value(change.source));
 }
 
-/// Item `[number]…` of a list; `rest` then begins behind the bracket.
+/// Item `[number]…` of a list; `rest` then begins after the bracket.
 Value& item_of(Value& list, std::string_view& rest, const std::string& path) {
   const std::size_t end = rest.find(']');
   std::size_t number = 0;

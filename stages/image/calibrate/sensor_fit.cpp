@@ -26,10 +26,10 @@ struct Photograph {
   std::array<std::vector<Eigen::Index>, 3> used;  // blocks that count, per channel
 };
 
-/// Colours and veil at some parameters.
+/// Colours and veil for given parameters.
 struct Colors {
   std::array<Eigen::VectorXd, 3> value;  // groups, then the veil
-  std::array<Eigen::MatrixXd, 3> gram;   // of the weighted columns
+  std::array<Eigen::MatrixXd, 3> gram;   // normal equations of the weighted columns
 };
 
 class Problem {
@@ -41,7 +41,7 @@ class Problem {
   Eigen::VectorXd lower() const { return bounds(parameters_.lower(), -4.0); }
   Eigen::VectorXd upper() const { return bounds(parameters_.upper(), 4.0); }
 
-  /// Everything at p = (u, o₁, o₂, …): codes of fit − photograph over sigma, then the priors' rows.
+  /// Residuals at p = (u, o₁, o₂, …): grey levels of fit − photograph over sigma, then the rows of the priors.
   Eigen::VectorXd residuals(const Eigen::VectorXd& p) {
     const std::vector<const BlockLight*> light = lights(p);
     const Sensor& now = sensor(p);
@@ -58,9 +58,9 @@ class Problem {
   double sigma() const { return sigma_; }
   Colors colors(const Eigen::VectorXd& p) { return solve_colors(lights(p), sensor(p).response); }
 
-  /// Leaves out what lies beyond five robust deviations and takes the rest's root mean square for sigma if it is more
-  /// than `least`, or more yet where neighbouring blocks agree, because they are then not independent. Returns whether
-  /// anything changed.
+  /// Removes blocks beyond five robust standard deviations. Sigma becomes the root mean square of the rest if that
+  /// exceeds `least`, and more if neighbouring blocks correlate, because they are then not independent. \return true if
+  /// anything changed
   bool reweigh(const Eigen::VectorXd& p, double least) {
     const std::vector<const BlockLight*> light = lights(p);
     const Response response = sensor(p).response;
@@ -69,7 +69,8 @@ class Problem {
     each_used([&](std::size_t k, std::size_t c, Eigen::Index block) {
       size.push_back(std::abs(difference(k, c, block, light, now, response)));
     });
-    const double most = std::max(5.0 * 1.4826 * upper_median(std::move(size)), 0.5);  // codes; rounding alone makes 0.5
+    const double most =
+        std::max(5.0 * 1.4826 * upper_median(std::move(size)), 0.5);  // grey levels; rounding alone makes 0.5
     std::size_t dropped = 0;
     double sum = 0.0, together = 0.0;
     for (std::size_t k = 0; k < photographs_.size(); ++k)
@@ -87,7 +88,7 @@ class Problem {
       }
     outliers_ += dropped;
     const double before = sigma_;
-    // Σ (Σ r)² is Σ r² where neighbours differ by chance, and kNeighbourhoodBlocks² times that where all agree.
+    // Σ (Σ r)² equals Σ r² if neighbours are independent, and kNeighbourhoodBlocks² times that if all agree.
     sigma_ = std::max(least, std::sqrt(std::max(sum, together) / static_cast<double>(num_rows())));
     return dropped > 0 || std::abs(sigma_ - before) > 0.02 * before;
   }
@@ -98,7 +99,7 @@ class Problem {
     return sensor_->second;
   }
 
-  /// \pre `covariance` is that of p
+  /// \pre `covariance` belongs to p
   void describe(const Eigen::VectorXd& p, const Eigen::MatrixXd& covariance, SensorFit& fit);
 
  private:
@@ -124,7 +125,7 @@ class Problem {
     return static_cast<Eigen::Index>(rows);
   }
 
-  /// Of a ball's label at p, in pixels. \pre photograph k shows a ball
+  /// Offsets of a ball's label at p, in pixels. \pre photograph k shows a ball
   Eigen::Vector3d offsets(const Eigen::VectorXd& p, std::size_t k) const {
     if (fitted_balls_ == 0) return Eigen::Vector3d::Zero();
     return label_sigma_px_ * p.segment<3>(parameters_.count() + 3 * (static_cast<Eigen::Index>(k) - 1));
@@ -213,7 +214,7 @@ Colors Problem::solve_colors(const std::vector<const BlockLight*>& light, const 
     for (std::size_t k = 0; k < photographs_.size(); ++k)
       for (const Eigen::Index block : photographs_[k].used[c]) {
         const double code = seen(k, c, block);
-        // σ codes are σ times the inverse curve's slope of signal.
+        // A deviation of σ grey levels is σ times the inverse curve's slope as signal.
         const double weight = 1.0 / (sigma_ * (value_of(code + 0.5, response) - value_of(code - 0.5, response)));
         a.row(row) = weight * (*light[k])[c].row(block);
         y[row++] = weight * value_of(code, response);
@@ -225,7 +226,7 @@ Colors Problem::solve_colors(const std::vector<const BlockLight*>& light, const 
       throw DataError("{} lights nothing in channel {} that counts, so its colour cannot be determined",
                       group.name.empty() ? fmt::format("LED {}", group.leds.front()) : "light group " + group.name, c);
     }
-    // Unit columns: lights of any strength and the veil are then alike to the solver.
+    // Unit columns: the solver then treats lights of any strength and the veil alike.
     const Eigen::VectorXd scale = norms.cwiseInverse();
     out.value[c] = scale.cwiseProduct(nonnegative_least_squares(a * scale.asDiagonal(), y));
     out.gram[c] = a.transpose() * a;
@@ -272,9 +273,9 @@ void Problem::describe(const Eigen::VectorXd& p, const Eigen::MatrixXd& covarian
   fit.outliers = outliers_;
 }
 
-constexpr double kStep = 0.02;  // of differences, in prior deviations
+constexpr double kStep = 0.02;  // step of differences, in prior standard deviations
 
-/// Covariance of the colours: their own at given parameters, and what the parameters' uncertainty moves them.
+/// Standard deviations of the colours: from their own uncertainty at given parameters, and from that of the parameters.
 Eigen::Matrix<double, Eigen::Dynamic, 3> color_deviations(Problem& problem, const Eigen::VectorXd& p,
                                                           const Eigen::MatrixXd& covariance) {
   const Colors here = problem.colors(p);

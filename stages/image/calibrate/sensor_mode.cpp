@@ -13,7 +13,7 @@
 namespace tacipc {
 namespace {
 
-/// Eight times the residual of the fit, about grey, as large as the photograph; black where nothing counts.
+/// Picture of eight times the fit's residual around grey, in the photograph's size; black where blocks do not count.
 ByteImage residual_picture(const FloatImage& residual, int block) {
   ByteImage out(residual.width * block, residual.height * block, 3);
   for (int y = 0; y < out.height; ++y)
@@ -38,7 +38,7 @@ std::vector<BallPhotograph> read_balls(const Stage& stage, const Camera& camera)
 Value::List parameter_lines(const SensorParameters& parameters, const SensorFit& fit) {
   Value::List lines;
   for (Eigen::Index i = 0; i < parameters.count(); ++i) {
-    // Of what is known of a parameter in the end, σ²/σ_prior² was known before.
+    // The prior contributed the fraction σ²/σ_prior² of the final knowledge of a parameter.
     const double share = fit.covariance(i, i), deviation = std::sqrt(share);
     lines.push_back(Value::Map{{"name", parameters.name(i)},
                                {"value", parameters.value(i, fit.u[i])},
@@ -68,7 +68,7 @@ Value::List three(const Eigen::RowVector3d& v) { return {v[0], v[1], v[2]}; }
 Value::List color_lines(const Sensor& sensor, const SensorFit& fit) {
   Value::List lines;
   const auto groups = light_groups(sensor.leds);
-  const double exposure = fit.rgb.maxCoeff();  // as the sensor file divides them
+  const double exposure = fit.rgb.maxCoeff();  // factor that the sensor file separates from the colours
   for (std::size_t g = 0; g <= groups.size(); ++g) {
     const auto row = static_cast<Eigen::Index>(g);
     Value::Map line;

@@ -88,7 +88,7 @@ void SensorParameters::set_bounds(Eigen::Index i, const std::string& sensor) {
         fmt::format("sensor_fit.parameters.{}: {} has none; it has {}", p.name, sensor, fmt::join(names, ", ")));
   }
   if (!p.mean) p.mean = nominal->second;
-  // What is wrong with the sensor at a value; empty: nothing.
+  // Error of the sensor at a value; empty if there is none.
   const auto fault_at = [&](double value) {
     try {
       changed_sensor(content_, changes_of({{p.name, value}}));
@@ -101,7 +101,7 @@ void SensorParameters::set_bounds(Eigen::Index i, const std::string& sensor) {
   if (!p.bounds && fault_at(*p.mean).empty())
     for (double& bound : bounds)
       for (int tries = 50; !fault_at(bound).empty(); --tries)
-        bound = tries > 0 ? *p.mean + 0.9 * (bound - *p.mean) : *p.mean;  // which may be an end itself
+        bound = tries > 0 ? *p.mean + 0.9 * (bound - *p.mean) : *p.mean;  // the mean itself may be an end
   if (*p.mean < bounds[0] || *p.mean > bounds[1])
     throw UsageError(fmt::format("sensor_fit.parameters.{}: its mean, {:g}, is outside its bounds, {:g} … {:g}", p.name,
                                  *p.mean, bounds[0], bounds[1]));
@@ -126,7 +126,7 @@ Sensor SensorParameters::sensor(const Eigen::VectorXd& u) const { return changed
 std::vector<SensorChange> SensorParameters::changes_of(const Values& values) const {
   std::vector<SensorChange> out;
   const auto given = [&](const std::string& name) { return values.contains(name); };
-  // A value that is not free is what the file says.
+  // A value that is not free comes from the file.
   const auto at = [&](const std::string& name) { return given(name) ? values.at(name) : nominal_values_.at(name); };
   const auto put = [&](const std::string& name, const std::string& path) {
     if (given(name)) out.push_back({path, values.at(name)});

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kStartStream = 0x73746172, kShuffleStream = 0x73687566, kDropStream = 0x64726f70;
 
-/// Sixteen random bits per value: four values of each number.
+/// Draws a mask with sixteen random bits per value, so each random number gives four.
 Eigen::MatrixXf dropout_mask(Eigen::Index rows, Eigen::Index columns, double dropout, std::uint64_t seed,
                              std::uint64_t& counter) {
   const auto threshold = static_cast<std::uint64_t>(dropout * 65536.0);
@@ -30,7 +30,7 @@ Eigen::MatrixXf dropout_mask(Eigen::Index rows, Eigen::Index columns, double dro
   return mask;
 }
 
-/// Adam's two running means, of one array of parameters.
+/// Adam's two running means for one array of parameters.
 struct Moments {
   Eigen::ArrayXf first, second;
 
@@ -86,8 +86,8 @@ LightNetwork initial_network(std::uint64_t seed) {
 double loss_and_gradient(const LightNetwork& network, const NetworkSamples& samples, const DropoutMasks& masks,
                          LightNetwork& gradient) {
   constexpr std::size_t kHidden = LightNetwork::kLayers - 1;
-  std::array<Eigen::MatrixXf, LightNetwork::kLayers> values;  // what each layer reads
-  std::array<Eigen::MatrixXf, kHidden> slopes;                // of its output over its sum
+  std::array<Eigen::MatrixXf, LightNetwork::kLayers> values;  // input of each layer
+  std::array<Eigen::MatrixXf, kHidden> slopes;                // derivative of each layer's output by its sum
   values[0] = samples.inputs;
   for (std::size_t l = 0; l < kHidden; ++l) {
     Eigen::MatrixXf sums = (network.layers[l].weights * values[l]).colwise() + network.layers[l].bias;

@@ -1,4 +1,4 @@
-// FOTS' network from photographs of balls [Zhao2024].
+// Trains FOTS' network on photographs of balls [Zhao2024].
 #pragma once
 
 #include <Eigen/Core>
@@ -12,26 +12,27 @@
 
 namespace tacipc {
 
-/// A column per sample.
+/// Samples of the training, one column each.
 struct NetworkSamples {
   Eigen::MatrixXf inputs;   // 5 rows
   Eigen::MatrixXf targets;  // 3 rows, change over 255
 };
 
-/// The pixels that are slanted and clipped in no channel.
+/// Samples at the pixels that are slanted and clipped in no channel.
 NetworkSamples network_samples(const std::vector<std::vector<ContactPixel>>& balls, int width_px, int height_px);
 
-/// Weights and biases uniform in ±1/√(inputs of the layer).
+/// Initial network: weights and biases uniform in ±1/√(inputs of the layer).
 LightNetwork initial_network(std::uint64_t seed);
 
-/// What each hidden value is multiplied by: 0 or 1 / (1 − dropout). Empty: nothing is dropped.
+/// Factors on the hidden values: 0 or 1 / (1 − dropout). Empty: no dropout.
 using DropoutMasks = std::array<Eigen::MatrixXf, LightNetwork::kLayers - 1>;
 
-/// Mean squared error over samples and channels; its gradient in the form of a network.
+/// Mean squared error over samples and channels. Writes its gradient in the form of a network.
 double loss_and_gradient(const LightNetwork& network, const NetworkSamples& samples, const DropoutMasks& masks,
                          LightNetwork& gradient);
 
-/// Adam (0.9, 0.999, 1e-8) on batches, shuffled every epoch. One thread: equal bytes for a seed.
+/// Trains with Adam (0.9, 0.999, 1e-8) on batches, shuffled every epoch, in one thread: a seed always gives equal
+/// bytes.
 /// \throw DataError if there are no samples
 LightNetwork train_network(const NetworkSamples& samples, const NetworkFit& settings);
 

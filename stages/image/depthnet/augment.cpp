@@ -5,12 +5,12 @@
 namespace tacipc {
 namespace {
 
-/// Draws of one item in one epoch.
+/// Random numbers of one item in one epoch.
 class Draws {
  public:
   Draws(std::uint64_t seed, int epoch, std::size_t index)
       : seed_(seed), stream_(mix_bits(random_bits(hash_of("augment"), static_cast<std::uint64_t>(epoch), index))) {}
-  /// Uniform in ±size.
+  /// Number uniform in ±size.
   double within(double size) { return size * (2.0 * uniform() - 1.0); }
   double uniform() { return random_uniform(seed_, stream_, counter_++); }
   /// Three numbers, one per channel.

@@ -1,4 +1,4 @@
-// What the force of the grip alone says of a grasp's outcome.
+// Baseline that predicts a grasp's outcome from the grip force alone.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,9 @@ struct GripBaseline {
   double probability(double grip_n) const;
 };
 
-/// The most likely one, but for a weight of 10⁻⁶ per grasp on the squared slope per standard deviation, which keeps it
-/// finite where a force separates the outcomes. \pre as many of both, not all held and not none
+/// Most likely regression, with a weight of 10⁻⁶ per grasp on the squared slope per standard deviation, which keeps the
+/// slope finite if the force separates the outcomes.
+/// \pre both lists have the same length, with at least one grasp held and one not held
 GripBaseline fit_grip_baseline(const std::vector<double>& grips_n, const std::vector<bool>& held);
 
 }  // namespace tacipc

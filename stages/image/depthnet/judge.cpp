@@ -13,10 +13,10 @@
 namespace tacipc {
 namespace {
 
-constexpr std::size_t kTogether = 32;  // images answered side by side
-constexpr std::size_t kFewest = 6;     // rows of a sheet, if there are as many: up to twice as many
+constexpr std::size_t kTogether = 32;  // images evaluated together
+constexpr std::size_t kFewest = 6;  // least number of rows of a sheet, if there are as many; at most twice this number
 
-/// Height over the front of the gel, m.
+/// Height above the front of the gel, m.
 FloatImage height_of(FloatImage depth_mm) {
   for (float& depth : depth_mm.pixels) depth *= -1e-3F;
   return depth_mm;

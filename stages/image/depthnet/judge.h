@@ -1,4 +1,4 @@
-// A network judged by images whose depth is known.
+// Evaluates a network on images with known depth.
 #pragma once
 
 #include <vector>
@@ -10,36 +10,36 @@
 
 namespace tacipc {
 
-/// What a network says of images, and how far it is off: rows of the regions `full` and `pressed` as `metrics` has
-/// them.
+/// Predictions of a network and their errors, as rows of the regions `full` and `pressed` in the format of `metrics`.
 class Judge {
  public:
   explicit Judge(TrainedNetwork network) : network_(std::move(network)) {}
 
-  /// Images wait until there are some to be answered side by side.
+  /// Adds an image to the queue. The network evaluates several queued images at once.
   void add(const DepthImage& image);
-  /// Answers those that wait. \throw DataError naming the image if it is of another size than the network knows
+  /// Evaluates the queued images. \throw DataError, naming the image, if the network does not accept its size
   void answer();
 
   const std::vector<MetricsRow>& rows() const { return rows_; }
   /// \pre there are rows
   ByteImage sheet() const { return depth_sheet(pictures_); }
-  /// Of images without contact, which have no rows: how many, and the mean of what the network sees in them, mm.
+  /// Number of images without contact, which have no rows.
   std::size_t untouched() const { return untouched_; }
-  /// Which images are unlike those of the network's training; of a network without their look none was compared.
+  /// Images that differ from those of the training. Networks without statistics of the training images give no
+  /// comparison.
   const LookReport& unlike() const { return unlike_; }
   double seen_untouched_mm() const { return seen_untouched_mm_ / static_cast<double>(untouched_); }
 
  private:
   void take(const DepthImage& image, const FloatImage& depth_mm);
-  /// Keeps at most a dozen of many images of one size, spread over all of them.
+  /// Keeps at most a dozen of many images of one size, evenly spread.
   void keep_picture(DepthRow row);
 
   TrainedNetwork network_;
   std::vector<DepthImage> waiting_;
   std::vector<MetricsRow> rows_;
   std::vector<DepthRow> pictures_;
-  std::size_t offered_ = 0, stride_ = 1;  // every so many of those offered is kept
+  std::size_t offered_ = 0, stride_ = 1;  // every stride_-th offered image is kept
   std::size_t untouched_ = 0;
   double seen_untouched_mm_ = 0.0;
   LookReport unlike_;

@@ -26,7 +26,7 @@ struct ItemResult {
   std::vector<double> sums;
 };
 
-/// Rate at a step of the whole training: a linear rise, then half a cosine down to 0.
+/// Learning rate at a step of the whole training: a linear rise, then half a cosine down to 0.
 double rate_at(double epochs_done, const ScheduleConfig& schedule) {
   if (epochs_done < schedule.warmup_epochs) return schedule.learning_rate * epochs_done / schedule.warmup_epochs;
   const double fall = (epochs_done - schedule.warmup_epochs) / std::max(1e-9, schedule.epochs - schedule.warmup_epochs);

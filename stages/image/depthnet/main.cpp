@@ -48,7 +48,7 @@ void write_history(Stage& stage, const std::vector<LearntEpoch>& rows) {
   write_file(stage.output("history.csv"), text);
 }
 
-/// Images of one kind, and their sizes.
+/// Images of one split, and their sizes.
 class Items {
  public:
   Items(const torch::jit::Module& network, int reduction) : network_(network), reduction_(reduction) {}
@@ -70,20 +70,20 @@ class Items {
   std::vector<ImageSize> sizes_;
 };
 
-/// The shards of a list, noted in the record, since only they say what was learnt.
+/// Shards of a list. They enter the record, which must show the training data.
 std::vector<std::pair<std::string, fs::path>> shards_of(Stage& stage) {
   auto shards = listed_shards(stage.input("--shards"));
   stage.add_inputs(shards);
   return shards;
 }
 
-/// Where the training of a name goes on.
+/// Checkpoints of the training of a name.
 Checkpoints checkpoints_of(Stage& stage, const std::string& name) {
   return {.load = [&stage, name] { return stage.load_scratch(name); },
           .save = [&stage, name](const std::string& bytes) { stage.save_scratch(name, bytes); }};
 }
 
-/// Says which of these images are unlike those of the training; lines of the summary.
+/// Logs warnings and adds lines to the summary for images that differ from those of the training.
 void warn_of_unlike(const LookReport& report, const char* what, Value::Map& summary) {
   for (const std::string& warning : report.warnings(what)) log_warning("{}", warning);
   if (report.images() > 0) summary.emplace_back("unlike_training", report.summary());
@@ -180,7 +180,7 @@ void judge_network(Stage& stage) {
   stage.summarize(summary);
 }
 
-/// What the flags ask for; each of the two has its own.
+/// Task selected by the flags; each task has flags of its own.
 void (*task_of(Stage& stage))(Stage&) {
   const bool config = stage.optional_input("--config").has_value(),
              shards = stage.optional_input("--shards").has_value(), renders = !stage.inputs("--renders").empty();

@@ -11,7 +11,7 @@
 #include "common/image/picture.h"
 #include "stages/image/depthnet/script_writer.h"
 
-// Small convolutions go through BLAS, whichever libblas.so.3 is.
+// Small convolutions use BLAS, from whichever libblas.so.3 is installed.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 namespace tacipc {
@@ -99,7 +99,7 @@ TrainedNetwork load_network(const std::vector<std::filesystem::path>& files) {
   network.module = make_network(first.network, 0);
   std::vector<torch::Tensor> weights = weights_of(network.module);
   for (std::size_t k = 0; k < weights.size(); ++k) {
-    weights[k].set_requires_grad(false);  // without this every answer would be ready for gradients
+    weights[k].set_requires_grad(false);  // otherwise every evaluation would prepare for gradients
     const Convolution& convolution = first.convolutions[k / 2];
     std::ranges::copy(k % 2 == 0 ? convolution.weights : convolution.biases, weights[k].data_ptr<float>());
   }
@@ -107,7 +107,7 @@ TrainedNetwork load_network(const std::vector<std::filesystem::path>& files) {
 }
 
 void save_script(const torch::jit::Module& module, const std::filesystem::path& file) {
-  for (torch::Tensor& weight : weights_of(module)) weight.set_requires_grad(false);  // as load_network
+  for (torch::Tensor& weight : weights_of(module)) weight.set_requires_grad(false);  // as in load_network
   module.save(file.string());
 }
 
@@ -120,7 +120,7 @@ std::optional<LookComparison> compare(const TrainedNetwork& network, const ByteI
 }
 
 void stay_in_this_thread() {
-  // Optimised executors record and recompile what they run: slower for a few calls, and not the same each time.
+  // Optimised executors record and recompile the code they run, which makes a few calls slower and results vary.
   torch::jit::setGraphExecutorOptimize(false);
   at::set_num_threads(1);
   if (openblas_set_num_threads) openblas_set_num_threads(1);

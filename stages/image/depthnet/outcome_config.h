@@ -1,4 +1,4 @@
-// configs/depthnet/*.yaml with `task: outcome`: a network that foretells what becomes of a grasp.
+// Content of configs/depthnet/*.yaml with `task: outcome`: a network that predicts the outcome of a grasp.
 #pragma once
 
 #include <variant>
@@ -7,19 +7,20 @@
 
 namespace tacipc {
 
+/// Configuration of an outcome network.
 struct OutcomeConfig {
-  NetworkConfig network;  // the contracting path of the U-Net, for each image
-  int hidden = 0;         // numbers that all images of a grasp are joined to
+  NetworkConfig network;  // contracting path of the U-Net, for each image
+  int hidden = 0;         // size of the hidden layer that joins all images of a grasp
   ScheduleConfig schedule;
   AugmentationConfig augmentation;
-  int frames = 0;          // images of each finger: the first so many after the fingers have closed
-  int seeds = 0;           // trainings, and as many controls
-  std::uint64_t seed = 1;  // of the first one
+  int frames = 0;          // images of each finger: this many, from closing on
+  int seeds = 0;           // number of trainings, and of controls
+  std::uint64_t seed = 1;  // seed of the first training
 
   static OutcomeConfig read(ConfigReader& in);
 };
 
-/// What a file asks for, by its `task`: depth where there is none.
+/// Configuration by its `task`; depth if it has none.
 struct TaskConfig {
   std::variant<DepthnetConfig, OutcomeConfig> task;
 

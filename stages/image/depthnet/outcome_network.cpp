@@ -5,8 +5,8 @@
 namespace tacipc {
 namespace {
 
-/// Codes are divided by these, so that what the network sees is of the order of one: changes since the fingers have
-/// closed are smaller than those since they were open.
+/// Divisors of grey levels that bring the network's input to the order of one. Changes since the fingers closed are
+/// smaller than those since they were open.
 constexpr double kStepCodes = 16.0, kSinceCodes = 8.0;
 
 }  // namespace

@@ -32,7 +32,7 @@ std::vector<double> by_seed(const std::vector<Scores>& scores, double Scores::*k
   return values;
 }
 
-/// Always the outcome that is more frequent in the training.
+/// Scores of a constant prediction: the outcome that is more frequent in the training.
 Scores scores_of_constant(const OutcomeStudy& study) {
   const std::vector<bool> trained = held_of(study.train);
   const bool more_held = 2 * std::ranges::count(trained, true) >= static_cast<long>(trained.size());
@@ -44,7 +44,7 @@ std::size_t held_in(const std::vector<GraspItem>& items) {
   return static_cast<std::size_t>(std::ranges::count(held, true));
 }
 
-/// How late the test's last images are, and how far its objects had slipped by then.
+/// Times of the test's last images, and the slip of the objects until then.
 struct Seen {
   double median_s = 0.0, largest_s = 0.0, median_slip_mm = 0.0, largest_slip_mm = 0.0;
 };
@@ -95,7 +95,7 @@ std::string score_row(const std::string& who, const Scores& scores) {
   return fmt::format("| {} | {:.3f} | {:.3f} | {:.3f} |\n", who, scores.accuracy, scores.balanced_accuracy, scores.auc);
 }
 
-/// Per outcome of the test: how many grasps, and which share of them the networks take for held.
+/// Table of the test's outcomes: number of grasps, and the fraction that the networks predict as held.
 std::string outcome_table(const OutcomeStudy& study) {
   struct Row {
     std::size_t grasps = 0, asked = 0, said_held = 0;

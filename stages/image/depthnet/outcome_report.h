@@ -1,4 +1,4 @@
-// What is written down of a study of outcomes.
+// Reports a study of grasp outcomes.
 #pragma once
 
 #include <string>
@@ -8,16 +8,17 @@
 
 namespace tacipc {
 
-/// Per test grasp: name, object, outcome, whether it held, grip, and the probabilities of the baseline and of each
-/// training.
+/// CSV with a row per test grasp: name, object, outcome, held or not, grip, and the probabilities of the baseline and
+/// of each training.
 std::string outcome_csv(const OutcomeStudy& study);
-/// Per training and epoch: rate, loss, share told right of the training's examples and of the validation.
+/// CSV with a row per training and epoch: rate, loss, accuracy on the training's examples and on the validation.
 std::string outcome_history_csv(const OutcomeStudy& study);
-/// ROC curves: of each seed's network and control, their means at equal shares of false alarms, and the baseline's.
+/// Plot of ROC curves: each seed's network and control, their means at equal false alarm rates, and the baseline.
 std::string roc_svg(const OutcomeStudy& study);
-/// A page with the figures, beside the picture `roc.svg`.
+/// Page with the numbers; it links the picture `roc.svg`.
 std::string outcome_page(const OutcomeStudy& study, int frames);
-/// Lines of the record: grasps and objects of each split, scores by kind with mean, deviation and those of the seeds.
+/// Lines of the record: grasps and objects of each split, scores by kind with mean, deviation and the values of the
+/// seeds.
 Value::Map outcome_summary(const OutcomeStudy& study);
 
 }  // namespace tacipc

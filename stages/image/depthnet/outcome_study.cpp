@@ -22,7 +22,7 @@ torch::Tensor logit_of(const torch::jit::Module& network, const torch::Tensor& i
   return network.get_method("logit")({input}).toTensor();
 }
 
-/// Share of the grasps whose probability is on the right side of ½.
+/// Fraction of the grasps whose probability is on the right side of ½.
 double share_right(const std::vector<double>& probabilities, const std::vector<GraspItem>& items) {
   double right = 0.0;
   for (std::size_t i = 0; i < items.size(); ++i) right += (probabilities[i] >= 0.5) == items[i].held;
@@ -41,10 +41,10 @@ std::vector<double> probabilities_of(const torch::jit::Module& network, const st
   return probabilities;
 }
 
-/// Trains the weights in place on grasps and what is said of each (`held`), and returns the epochs; `judged`: the share
-/// of the examples that it foretold as it was taught, the same of the validation (NaN without any). The loss is the
-/// logistic one; in every epoch each grasp is disturbed anew and seen from the other side or not, left and right
-/// exchanged: a half turn about the vertical takes one finger to the other.
+/// Trains the weights in place on grasps and their labels `held`. The loss is the logistic one. In every epoch each
+/// grasp is augmented anew, and its fingers are exchanged or not: half a turn about the vertical maps one finger to the
+/// other.
+/// \return the epochs; `judged` holds the accuracy on the training's labels and on the validation (NaN without any)
 std::vector<LearntEpoch> train_outcome(torch::jit::Module& network, const std::vector<GraspItem>& items,
                                        const std::vector<bool>& held, const std::vector<GraspItem>& validation,
                                        const OutcomeConfig& config, std::uint64_t seed, const Checkpoints& checkpoints,

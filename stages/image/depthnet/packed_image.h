@@ -1,4 +1,4 @@
-// An image of a packed sample.
+// Reads an image of a packed sample.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace tacipc {
 
-/// A frame of a packed image. \throw DataError if the field is not one of this type and so many channels
+/// One frame of a packed image. \throw DataError if the field does not have this type and number of channels
 template <typename T>
 Image<T> packed_image(const Hdf5Reader& shard, const std::string& field, NumberType type, int channels,
                       std::size_t frame) {

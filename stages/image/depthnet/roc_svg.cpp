@@ -10,7 +10,7 @@ namespace {
 constexpr PlotArea kArea{.left = 50.0, .right = 350.0, .top = 14.0, .bottom = 314.0};
 constexpr double kWidth = 366.0, kHeight = 412.0, kLegend = 366.0, kLine = 16.0;
 constexpr const char *kNetwork = "#1f5fa8", *kShuffled = "#c2571a", *kGrip = "#3a8a4a";
-constexpr int kShares = 100;  // of the x axis, where curves are averaged
+constexpr int kShares = 100;  // positions on the x axis at which curves are averaged
 
 using Roc = std::vector<std::pair<double, double>>;
 
@@ -23,7 +23,7 @@ std::string curve(const Roc& points, const char* color, const char* look) {
   return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" {}/>\n", path, color, look);
 }
 
-/// Those of all seeds, pale, and their mean.
+/// Curves of all seeds, pale, and their mean.
 std::string curves_of(const OutcomeStudy& study, bool shuffled, const char* color) {
   const std::vector<bool> held = held_of(study.test);
   std::string svg;

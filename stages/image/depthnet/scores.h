@@ -1,4 +1,4 @@
-// How good probabilities of a yes are where the answers are known.
+// Scores predicted probabilities of a binary label against the true labels.
 #pragma once
 
 #include <utility>
@@ -6,20 +6,21 @@
 
 namespace tacipc {
 
+/// Scores of predicted probabilities.
 struct Scores {
-  double accuracy = 0.0;           // share that is right, yes from a probability of ½ on
-  double balanced_accuracy = 0.0;  // mean of that share among the yes and among the no
-  double auc = 0.0;                // area under the ROC curve: how often a yes has a higher probability than a no
+  double accuracy = 0.0;           // fraction of correct predictions; positive from a probability of ½ on
+  double balanced_accuracy = 0.0;  // mean of that fraction among the positives and among the negatives
+  double auc = 0.0;  // area under the ROC curve: fraction of pairs in which the positive has the higher probability
 };
 
-/// \pre as many of both, some yes and some no
+/// Computes the scores. \pre equal lengths, at least one positive and one negative
 Scores scores_of(const std::vector<double>& probabilities, const std::vector<bool>& truth);
 
-/// The ROC curve: shares of the no and of the yes that are at or above a probability, as it falls: from (0, 0) to
-/// (1, 1), one point per different probability. \pre as of scores_of
+/// ROC curve from (0, 0) to (1, 1): fractions of the negatives and of the positives at or above a falling probability,
+/// one point per different probability. \pre equal lengths, at least one positive and one negative
 std::vector<std::pair<double, double>> roc_of(const std::vector<double>& probabilities, const std::vector<bool>& truth);
 
-/// Its height at a share of the no, between two points in proportion; where it rises the upper end.
+/// Height of the curve at a fraction of the negatives, linear between two points; at a vertical part its upper end.
 double height_of(const std::vector<std::pair<double, double>>& roc, double share);
 
 }  // namespace tacipc

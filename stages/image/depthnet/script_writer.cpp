@@ -35,7 +35,7 @@ void ScriptWriter::pad(int multiple) {
 
 void ScriptWriter::convolution(int in, int out, int width, bool rectified) {
   const std::string name = weight_name(count_);
-  // After a rectifier a variance of 2 / fan-in keeps the signal's size. The last layer begins near an answer of 0.
+  // After a rectifier a variance of 2 / fan-in keeps the signal's size. The last layer begins with outputs near 0.
   const double sigma = rectified ? std::sqrt(2.0 / (in * width * width)) : 0.1 * std::sqrt(1.0 / (in * width * width));
   torch::Tensor weight = torch::empty({out, in, width, width});
   float* values = weight.data_ptr<float>();

@@ -1,4 +1,4 @@
-// A network written down as a method of a TorchScript module, with its weights.
+// Writes a network as a method of a TorchScript module, with its weights.
 #pragma once
 
 #include <torch/script.h>
@@ -10,7 +10,7 @@
 
 namespace tacipc {
 
-/// Writes the source of a method `name(x)` and makes the weights it names, drawn by He et al. 2015 from the seed.
+/// Writes the source of a method `name(x)` and makes its weights, drawn by He et al. 2015 from the seed.
 class ScriptWriter : public NetworkWriter {
  public:
   ScriptWriter(torch::jit::Module& module, const std::string& name, std::uint64_t seed);
@@ -22,14 +22,14 @@ class ScriptWriter : public NetworkWriter {
   void enlarge_and_join(int level) override;
   void end() override;
 
-  /// The beginning of a network that sees sequences of `images` changes against a reference, (N × images, 3, h, w), in
-  /// codes: each divided by `change_codes`, behind it its difference to the first one of its sequence, divided by
-  /// `since_codes`; last rows and columns repeated up to a multiple.
+  /// Begins a network for sequences of `images` changes against a reference, (N × images, 3, h, w), in grey levels.
+  /// Each is divided by `change_codes`, and is followed by its difference from the first of its sequence, divided by
+  /// `since_codes`; last rows and columns are repeated up to a multiple.
   void begin_sequences(int images, double change_codes, double since_codes, int multiple);
-  /// Mean and maximum of each channel, those of so many images behind each other: (N × images, C, h, w) → (N, images ×
-  /// 2 C, 1, 1).
+  /// Mean and maximum of each channel, concatenated over `images` successive images: (N × images, C, h, w) → (N, images
+  /// × 2 C, 1, 1).
   void pool_and_join(int images);
-  /// The end of a network without maps: (N, 1, 1, 1) → (N).
+  /// Ends a network without maps: (N, 1, 1, 1) → (N).
   void end_with_number();
 
  private:
@@ -42,8 +42,9 @@ class ScriptWriter : public NetworkWriter {
   std::string source_;
 };
 
-/// Adds the method `reduced(image, reference)`: u8 (N, H, W, 3) both, or one reference for all → what the network sees,
-/// f32 (N, 6, h, w): means over squares of the change against the reference, then of the reference, in codes.
+/// Adds the method `reduced(image, reference)`: u8 (N, H, W, 3) both, or one reference for all → input of the network,
+/// f32 (N, 6, h, w). It holds means over squares of the change against the reference, then of the reference, in grey
+/// levels.
 void define_reduced(torch::jit::Module& module, int reduction);
 
 }  // namespace tacipc

@@ -9,9 +9,9 @@ namespace tacipc {
 namespace {
 
 constexpr std::size_t kMostItems = 512, kLooks = 512;
-constexpr std::size_t kLeastDraws = 1, kMostDraws = 16;  // of an item, beside itself
+constexpr std::size_t kLeastDraws = 1, kMostDraws = 16;  // augmented draws per item, in addition to the item itself
 
-/// Background and image, of what the network sees, (1, 6, h, w).
+/// Background and image from a network's input, (1, 6, h, w).
 std::pair<FloatImage, FloatImage> images_of(const torch::Tensor& input) {
   const torch::Tensor rows = input.squeeze(0).permute({1, 2, 0}).contiguous();
   const auto height = static_cast<int>(rows.size(0)), width = static_cast<int>(rows.size(1));
@@ -30,7 +30,7 @@ ImageLook look_of_input(const torch::Tensor& input) {
   return look_of(background, image);
 }
 
-/// Sample of an item, from its name.
+/// Name of an item's sample, from the item's name.
 std::string sample_of(const DepthItem& item) { return item.name.substr(0, item.name.rfind('/')); }
 
 }  // namespace

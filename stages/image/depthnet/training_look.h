@@ -1,4 +1,4 @@
-// Statistics of a network's training images, disturbed as its training disturbs them.
+// Statistics of a network's training images, augmented as in its training.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace tacipc {
 
-/// Statistics of the items of this size, or of some hundreds spread over them; frames of a sample belong together. \pre
-/// there is one
+/// Statistics of the items of this size, or of some hundreds spread over them; frames of a sample belong together.
+/// \pre there is such an item
 TrainedLook training_look(const std::vector<DepthItem>& items, const ImageSize& size, const DepthnetConfig& config);
 
-/// How an item that is not disturbed compares with it.
+/// Compares an item without augmentation with these statistics.
 LookComparison compare(const TrainedLook& look, const DepthItem& item);
 
 }  // namespace tacipc

@@ -1,4 +1,4 @@
-// Tactile images with their references and depths, as a network is trained and judged on them.
+// Tactile images with their references and depths, for training and evaluating a network.
 #pragma once
 
 #include <torch/script.h>
@@ -13,38 +13,38 @@
 
 namespace tacipc {
 
-/// In contact is what is pressed deeper, as in configs/metrics/depth.yaml.
+/// Indentation beyond which a pixel counts as in contact, as in configs/metrics/depth.yaml.
 inline constexpr double kContactMm = 0.02;
 
-/// An image of a sample, as it was packed or rendered.
+/// Image of a sample, packed or rendered.
 struct DepthImage {
   std::string name = {};   // "star_00017/frame_0006"
-  std::string split = {};  // train, val or test; empty of a render folder
+  std::string split = {};  // train, val or test; empty for a render folder
   ByteImage image = {};
   ByteImage reference = {};  // the sample's first frame, without contact
-  FloatImage depth_mm = {};  // indentation; NaN beside the gel
+  FloatImage depth_mm = {};  // indentation; NaN outside the gel
 };
 using TakeDepthImage = std::function<void(const DepthImage&)>;
 
-/// The images of a shard's samples of those splits: each sample's frames after the first, which is their reference, or
-/// its last one alone. \throw DataError naming the shard if it is damaged, holds no images or no indentation, or such
-/// of different sizes
+/// Reads the images of a shard's samples in these splits: each sample's frames after the first, which is their
+/// reference, or only its last one.
+/// \throw DataError, naming the shard, if it is damaged, holds no images or no indentation, or their sizes differ
 void read_packed(const std::filesystem::path& shard, const std::vector<std::string>& splits, bool last_frame,
                  const TakeDepthImage& take);
 
-/// The same of a folder that render wrote.
+/// Reads the images of a folder that render wrote.
 void read_rendered(const std::filesystem::path& folder, bool last_frame, const TakeDepthImage& take);
 
-/// At the network's resolution, f16. Consecutive images with the same reference share it.
+/// Image at the network's resolution, f16. Consecutive images with the same reference share it.
 struct DepthItem {
   std::string name;
-  ImageSize size;           // of the image
-  torch::Tensor change;     // (3, h, w), image − reference, codes
-  torch::Tensor reference;  // (3, h, w), codes
-  torch::Tensor depth_mm;   // (1, h, w), NaN beside the gel
+  ImageSize size;           // size of the image
+  torch::Tensor change;     // (3, h, w), image − reference, grey levels
+  torch::Tensor reference;  // (3, h, w), grey levels
+  torch::Tensor depth_mm;   // (1, h, w), NaN outside the gel
 };
 
-/// The image as the network sees it. \throw DataError, which begins with the name, if no pixel has a depth
+/// Reduces the image to the network's input. \throw DataError, starting with its name, if no pixel has a depth
 DepthItem item_of(const DepthImage& image, const torch::jit::Module& network, int reduction);
 
 }  // namespace tacipc

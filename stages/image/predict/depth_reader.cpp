@@ -25,7 +25,7 @@ cv::Mat tensor_of(const ByteImage& image) {
   return tensor;
 }
 
-/// What OpenCV throws, as an error of ours.
+/// Rethrows an exception of OpenCV as an error of TacIPC.
 [[noreturn]] void refuse(const cv::Exception& error, const std::string& model_name) {
   if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
   throw DataError("{}: OpenCV cannot compute it: {}", model_name, error.err);

@@ -1,4 +1,4 @@
-// A network of depthnet, without the library that trained it.
+// Evaluates a network of depthnet without the library that trained it.
 #pragma once
 
 #include <memory>
@@ -9,19 +9,19 @@
 
 namespace tacipc {
 
-/// Reads depth by a network. OpenCV is given the graph that we build from it, never a file's own. Each thread needs its
-/// own.
+/// Estimates depth by a network. OpenCV gets the graph that this class builds from the model, never a file's own graph.
+/// Each thread needs its own object.
 class DepthReader {
  public:
-  /// `model_name` begins its messages.
+  /// \param model_name text that begins messages
   DepthReader(const DepthModel& model, std::string model_name);
   ~DepthReader();
   DepthReader(DepthReader&&) noexcept;
   DepthReader& operator=(DepthReader&&) = delete;
 
-  /// The indentation, mm. \throw DataError, which begins with the name, if the image is not of the size that the
-  /// network is for, or not of its reference's; DataError with the model's name and this one if the answer has numbers
-  /// that are not finite \pre three channels
+  /// Indentation, mm. \pre three channels
+  /// \throw DataError, starting with `name`, if the image does not have the network's size or that of its reference
+  /// \throw DataError, with the model's name and `name`, if the prediction has numbers that are not finite
   FloatImage depth_mm(const std::string& name, const ByteImage& image, const ByteImage& reference);
 
  private:
@@ -30,11 +30,11 @@ class DepthReader {
   std::string model_name_;
 };
 
-/// \throw DataError, which begins with the name, if the image is not of the size that the network is for, or not of its
-/// reference's
+/// Checks an image. \throw DataError, starting with `name`, if it does not have the network's size or that of its
+/// reference
 void check_size(const DepthModel& model, const std::string& name, const ByteImage& image, const ByteImage& reference);
 
-/// OpenCV says nothing by itself and stays in the thread that asks. To be called once, before any thread reads.
+/// Silences OpenCV and keeps it in the calling thread. To be called once, before any thread estimates depth.
 void set_up_opencv();
 
 }  // namespace tacipc

@@ -36,7 +36,7 @@ const StageSpec kPredict{
          .help = "photographs unlike those of the network's training, or which cannot be compared, are an error",
          .is_switch = true}}};
 
-/// Indentation of a depth map against that of the gel at rest, mm.
+/// Indentation of a depth map relative to that of the gel at rest, mm.
 FloatImage indentation_mm(const FloatImage& rest_m, FloatImage depth_m) {
   for (std::size_t i = 0; i < rest_m.pixels.size(); ++i)
     depth_m.pixels[i] = 1e3F * (rest_m.pixels[i] - depth_m.pixels[i]);
@@ -53,7 +53,7 @@ void check_flags(Stage& stage) {
       throw UsageError(fmt::format("--images: two are called {}", file.stem().string()));
 }
 
-/// Says which photographs are unlike those of the network's training; lines of the summary.
+/// Logs photographs that differ from those of the network's training. \return lines of the summary
 Value::Map compare_with_training(Stage& stage, const DepthModel& model, const ByteImage& reference,
                                  const std::vector<ByteImage>& images) {
   const bool strict = !stage.option("--strict").empty();

@@ -41,7 +41,7 @@ class RadianceDeveloper : public Developer {
   TactileImage develop(const TraceResult& traced, bool with_markers, std::size_t frame) override {
     const Sensor& sensor = unit_.sensor;
     FloatImage signal = camera_signal(color_image(traced, sensor, with_markers), sensor.camera, sensor.response);
-    // Fresh noise comes beside the reference's. Frame 0 has that one already.
+    // Fresh noise is added to the reference's, which frame 0 already has.
     if (config_.noise_in_every_frame && (frame > 0 || config_.transfer == Transfer::none))
       signal = add_noise(signal, exposure_, noise(), config_.noise_seed, kFrameStreams + frame);
     TactileImage out = [&] {
@@ -69,13 +69,13 @@ class RadianceDeveloper : public Developer {
   const RenderUnit& unit_;
   const RenderConfig& config_;
   FloatImage signal_, codes_;
-  Encoded last_;  // of the image without markers, before the one with them
+  Encoded last_;  // state of the image without markers, made before the one with markers
   ByteImage reference_;
   double exposure_ = 0.0;
 };
 
-/// tactile = clamp(round(reference + change − change at rest), 0, 255): noise transfer, as the light field is
-/// calibrated.
+/// Developer by changes: tactile = clamp(round(reference + change − change at rest), 0, 255). It transfers the noise,
+/// as in the calibration of the light field.
 class ChangeDeveloper : public Developer {
  public:
   ChangeDeveloper(const RenderUnit& unit, const RenderConfig& config) : unit_(unit), refract_(config.trace.refract) {

@@ -13,9 +13,9 @@
 namespace tacipc {
 namespace {
 
-constexpr double kRing = 2.0;  // ends of the ring over those of the window, both from its middle
+constexpr double kRing = 2.0;  // extent of the ring over that of the field of view, from their common centre
 
-/// Row of the membrane's vertex of a pixel; −1 and `width`, `height` name the ring.
+/// Row of the membrane's vertex for a pixel; −1, `width` and `height` are on the ring.
 int vertex_of(int x, int y, int width) { return (y + 1) * (width + 2) + x + 1; }
 
 Triangles grid_triangles(int width, int height) {
@@ -25,7 +25,7 @@ Triangles grid_triangles(int width, int height) {
     for (int x = -1; x < width; ++x) {
       const int a = vertex_of(x, y, width), b = vertex_of(x + 1, y, width);
       const int c = vertex_of(x + 1, y + 1, width), d = vertex_of(x, y + 1, width);
-      // Diagonals turn from square to square, so that slopes along both of them are alike.
+      // Diagonals alternate from square to square, so that slopes along both directions are treated alike.
       if ((x + y) % 2 == 0) {
         triangles.row(row++) << a, b, c;
         triangles.row(row++) << a, c, d;
@@ -67,7 +67,7 @@ Membrane HeightMaps::at_rest() const {
     }
   }
   Triangles triangles = grid_triangles(width, height);
-  // Images may be mirrored views of S; triangles look out of the gel all the same.
+  // Images may be mirrored views of S, but triangles always face out of the gel.
   const Vector3 across = rest_[1] - rest_[0], down = rest_[width] - rest_[0];
   if (across.cross(down).z() < 0.0) triangles.col(1).swap(triangles.col(2));
   return make_membrane(rest, rest, std::move(triangles));

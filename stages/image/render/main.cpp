@@ -37,7 +37,7 @@ const StageSpec kRender{
                 .required = false}},
     .options = {{.flag = "--seed", .help = "seed of the sample (a count), for noise of its own", .fallback = ""}}};
 
-/// An image of labels as the codes that stand in its file.
+/// Image of labels as the 8-bit values in its file.
 template <typename Label>
 ByteImage coded(const ByteImage& labels, std::uint8_t (*code)(Label)) {
   ByteImage image = labels;
@@ -45,10 +45,10 @@ ByteImage coded(const ByteImage& labels, std::uint8_t (*code)(Label)) {
   return image;
 }
 
-/// Writes those files of a frame that are wanted: what a dataset names, or all.
+/// Writes the requested files of a frame: those that a dataset names, or all.
 class FrameWriter {
  public:
-  /// \param pressure also the two parts of the traction, where no dataset says what is wanted
+  /// \param pressure also write the two parts of the traction, if no dataset restricts the files
   FrameWriter(Stage& stage, std::optional<DatasetMaps> maps, bool pressure)
       : stage_(stage), maps_(std::move(maps)), pressure_(pressure) {}
 
@@ -101,7 +101,7 @@ class FrameWriter {
   std::string folder_;
 };
 
-/// How many values of the sensor file are known, derived, guessed.
+/// Numbers of values of the sensor file that are known, derived and guessed.
 Value::Map count_sources(const Sensor& sensor) {
   Value::Map counts;
   for (const std::string source : {"known", "derived", "guess", "unstated"})
@@ -109,7 +109,7 @@ Value::Map count_sources(const Sensor& sensor) {
   return counts;
 }
 
-/// Which LEDs the basis images show, in the order of their numbers.
+/// LEDs shown by the basis images, in the order of their numbers.
 Value::List groups_of(const Sensor& sensor) {
   Value::List lines;
   for (const LightGroup& group : light_groups(sensor.leds)) {
@@ -129,7 +129,7 @@ std::optional<std::uint64_t> sample_seed(const std::string& text) {
   return seed;
 }
 
-/// A photograph becomes an input of the stage; without one the record says `synthetic`.
+/// Loads the photograph, which becomes an input of the stage; without one the record has `synthetic`.
 std::optional<ByteImage> load_reference(Stage& stage, const Sensor& sensor, const std::string& name) {
   if (!sensor.reference_image) return std::nullopt;
   stage.add_input(name, *sensor.reference_image);

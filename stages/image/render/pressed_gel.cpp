@@ -19,8 +19,8 @@ void check_rest(const PressFolder& press, const TetMesh& gel) {
   }
 }
 
-/// Traction of one frame on the membrane's vertices: normal plus friction force over the vertex's share of the deformed
-/// area, a third of each triangle around it.
+/// Traction of one frame on the membrane's vertices, Pa: normal plus friction force over the vertex's share of the
+/// deformed area, a third of each triangle around it.
 Positions traction_of(const ContactParts& forces_n, const Membrane& membrane) {
   const Eigen::Index count = membrane.positions.rows();
   Eigen::VectorXd area = Eigen::VectorXd::Zero(count);
@@ -43,7 +43,8 @@ Positions traction_of(const ContactParts& forces_n, const Membrane& membrane) {
 PressedGel::PressedGel(const std::filesystem::path& press, const TetMesh& gel)
     : gel_(gel), press_(PressFolder::finished(press, {{kVertices, static_cast<std::size_t>(gel.num_vertices())}})) {
   check_rest(press_, gel);
-  for (std::size_t frame = 1; frame < num_frames(); ++frame) press_.positions(frame);  // refuses before long work
+  for (std::size_t frame = 1; frame < num_frames(); ++frame)
+    press_.positions(frame);  // checks every frame before the long work
   if (press_.has(contact_force) != press_.has(contact_state)) {
     throw DataError("{}: has one of {} and {} without the other", press.string(), field_of(contact_force).file,
                     field_of(contact_state).file);

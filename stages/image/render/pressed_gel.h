@@ -1,4 +1,4 @@
-// The front face of a pressed gel, as render takes it from a press folder.
+// Front face of a pressed gel as input of render, from a press folder.
 #pragma once
 
 #include <filesystem>
@@ -10,11 +10,12 @@
 
 namespace tacipc {
 
-/// Refers to the gel, which must outlive it.
+/// Keeps a reference to the gel, which must outlive this object.
 class PressedGel : public Deformation {
  public:
-  /// Contact (both files or none) and markers may be absent. \throw DataError if the press did not finish, a file does
-  /// not fit the gel or the other files, a position is not finite, or frame 0 is not the gel at rest (within 1e-6 m)
+  /// Opens a press. Contact (both files or none) and markers may be absent.
+  /// \throw DataError if the press did not finish, a file does not fit the gel or the other files, a position is not
+  /// finite, or frame 0 is not the gel at rest (within 1e-6 m)
   PressedGel(const std::filesystem::path& press, const TetMesh& gel);
 
   std::size_t num_frames() const override { return press_.extent(PressArray::positions, kFrames); }
@@ -23,7 +24,7 @@ class PressedGel : public Deformation {
   void move(Membrane& membrane, std::size_t frame) const override { move_membrane(membrane, positions(frame)); }
   SurfaceFields fields(std::size_t frame, const Membrane& membrane) const override;
   Positions markers(std::size_t frame) const override;
-  /// Of the whole gel.
+  /// Vertex positions of the whole gel, m.
   Positions positions(std::size_t frame) const { return press_.positions(frame); }
 
  private:

@@ -33,7 +33,8 @@ void warn_of_dark_leds(const FloatImage& basis, const std::vector<LightGroup>& g
   }
 }
 
-/// Image points of markers in columns 0 and 1, NaN where the picture does not show them; column 2 is 1 or 0.
+/// Image points of markers: columns 0 and 1 hold the position, NaN if the picture does not show the marker; column 2 is
+/// 1 or 0.
 Positions project_markers(const Positions& markers, const Sensor& sensor, bool refract) {
   const CameraModel camera(sensor.camera, sensor.stack, refract);
   Positions out(markers.rows(), 3);

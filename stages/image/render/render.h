@@ -1,4 +1,4 @@
-// Tactile images of the frames of one press, or of height maps.
+// Renders tactile images of the frames of one press, or of height maps.
 #pragma once
 
 #include <filesystem>
@@ -17,33 +17,35 @@
 
 namespace tacipc {
 
-/// The photograph named by the sensor. \throw DataError if its size is not the camera's.
+/// Photograph that the sensor names. \throw DataError if its size is not the camera's
 ByteImage read_reference(const std::filesystem::path& path, const Camera& camera);
 
+/// Outputs of one frame in one unit.
 struct RenderedFrame {
   std::size_t index = 0;
   std::string unit = {};
-  const TraceResult* trace = nullptr;  // null where another unit's serves
-  FloatImage linear = {};              // empty where it is not wanted or the sensor's light is known in codes only
-  std::vector<FloatImage> basis = {};  // of each light group, if wanted; where the unit traced rays
+  const TraceResult* trace = nullptr;  // null if another unit's trace serves
+  FloatImage linear = {};  // empty if it is not requested or the sensor's light is known only in grey levels
+  std::vector<FloatImage> basis = {};  // image of each light group, if requested and the unit traced rays
   TactileImage tactile = {};
-  std::optional<TactileImage> marker = std::nullopt;  // the same with the printed markers, if wanted and there are any
-  Positions marker_px = {};                           // column, row and 1 where seen, else NaN and 0
+  std::optional<TactileImage> marker = std::nullopt;  // image with the printed markers, if requested and there are any
+  Positions marker_px = {};                           // column, row and 1 for a visible marker, otherwise NaN and 0
 };
 
+/// Summary of a rendering, for the record.
 struct RenderSummary {
   std::vector<std::size_t> frames = {};
   std::vector<UnitSummary> units = {};
   std::int64_t rays = 0;
   std::int64_t nudged_rays = 0;
   std::int64_t outside_rays = 0;
-  double max_indentation_m = 0.0;  // in the last frame
-  double indirect_share = 0.0;     // of the last frame's light
+  double max_indentation_m = 0.0;  // indentation in the last frame
+  double indirect_share = 0.0;     // indirect fraction of the last frame's light
 };
 
-/// Renders frame 0 (the reference, from the gel at rest), then the frames asked for, with every unit, and hands each to
-/// `deliver`. \pre the first unit needs rays
-/// \throw DataError if a unit without reference has no noise model, if nothing lights the gel or the camera sees none.
+/// Renders frame 0 (the reference, from the gel at rest), then the requested frames, with every unit, and passes each
+/// to `deliver`. \pre the first unit needs rays
+/// \throw DataError if a unit without reference has no noise model, no light reaches the gel, or the camera sees none
 RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& config, const Deformation& front,
                      const std::function<void(const RenderedFrame&)>& deliver);
 

@@ -13,7 +13,7 @@ std::filesystem::path beside(const ConfigReader& in, const std::string& name) {
   return std::filesystem::path(in.source()).parent_path() / name;
 }
 
-/// Words that may name a folder.
+/// True for a text that may name a folder.
 bool plain(const std::string& word) {
   return !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") ==
                               std::string::npos;

@@ -1,4 +1,4 @@
-// How to render: what is drawn, how finely, and in which variants. Light, camera and coating belong to the sensor.
+// Configuration of rendering: outputs, resolution and variants. Light, camera and coating belong to the sensor.
 #pragma once
 
 #include <array>
@@ -14,58 +14,62 @@
 
 namespace tacipc {
 
-/// How a sensor unit differs from its drawing: normal deviates with these standard deviations, a function of the seed.
+/// Random deviations of a sensor unit from its nominal values: normal deviates with these standard deviations,
+/// determined by the seed.
 struct Perturbation {
   int seed = 0;
   double led_position_m = 0.0;       // each coordinate of each LED
   double led_intensity = 0.0;        // relative
   double camera_position_m = 0.0;    // each coordinate
-  double camera_rotation_rad = 0.0;  // about each axis (a rectified camera: about z)
-  double coating_albedo = 0.0;       // relative, all channels alike
+  double camera_rotation_rad = 0.0;  // rotation about each axis (rectified camera: only about z)
+  double coating_albedo = 0.0;       // relative, all channels equal
 
   static Perturbation read(ConfigReader& in);
 };
 
-/// The same deformation seen by another sensor, in other light or against another reference.
+/// Variant: the same deformation with another sensor, other light or another reference.
 struct Variant {
   struct Light {
     std::string group;
     std::array<double, 3> rgb{};
   };
-  std::string name = {};                                               // of its folder inside each frame
-  std::optional<std::filesystem::path> sensor = std::nullopt;          // another file's optics on the same gel
-  std::vector<Light> lights = {};                                      // groups that shine in another colour
-  std::optional<std::array<double, 3>> coating_albedo = std::nullopt;  // gel of another colour
+  std::string name = {};  // name of its folder inside each frame
+  std::optional<std::filesystem::path> sensor =
+      std::nullopt;                // sensor file whose optics replace those of the sensor; the gel stays
+  std::vector<Light> lights = {};  // light groups with another colour
+  std::optional<std::array<double, 3>> coating_albedo = std::nullopt;  // coating of another colour
   std::optional<std::filesystem::path> reference_image = std::nullopt;
   std::optional<Perturbation> perturbation = std::nullopt;
 
   static Variant read(ConfigReader& in);
-  /// Whether rays have to be traced for it; otherwise the basis images of the sensor itself do.
+  /// True if rays must be traced for it; otherwise the basis images of the sensor suffice.
   bool needs_rays() const { return sensor.has_value() || perturbation.has_value(); }
 };
 
-/// How the noise of the reference gets into the image: on codes, as a factor in linear light, or not at all.
+/// Transfer of the reference's noise into the image: on grey levels, as a factor in linear light, or not at all.
 enum class Transfer { encoded, linear, none };
 
+/// Configuration of render.
 struct RenderConfig {
   RenderedFrames frames = RenderedFrames::last;
   TraceSettings trace;
-  bool basis_images = false;  // also the image of each light group alone
+  bool basis_images = false;  // also write the image of each light group alone
   Transfer transfer = Transfer::encoded;
   std::uint64_t noise_seed = 0;
-  bool noise_in_every_frame = false;  // fresh noise in each simulated frame, beside what the reference carries
+  bool noise_in_every_frame =
+      false;  // add fresh noise in each simulated frame, in addition to the noise of the reference
   std::vector<Variant> variants = {};
-  bool linear = true, marker = true;  // images that need not be made where a dataset does not want them
+  bool linear = true, marker = true;  // images that are made; a dataset may not need them
 
   static RenderConfig read(ConfigReader& in);
 };
 
-/// Seed of the noise of one sample of a dataset, a hash of the configuration's, the sample's and the stage: samples
-/// must not carry the same pattern, which is all that a network would have to learn to tell noise from shape.
+/// Noise seed of one sample of a dataset: a hash of the configuration's seed, the sample's and the stage. Samples must
+/// not share a noise pattern, because a network could learn that pattern to separate noise from shape.
 std::uint64_t noise_seed_of_sample(std::uint64_t noise_seed, std::uint64_t sample_seed);
 
-/// The sensor that a variant means. `other` is its sensor file, read.
-/// \throw DataError if it names a light group that the sensor has not.
+/// Sensor of a variant. `other` is the variant's sensor file, already read.
+/// \throw DataError if it names a light group that the sensor does not have
 Sensor varied(const Sensor& sensor, const Variant& variant, const std::optional<Sensor>& other);
 
 }  // namespace tacipc

@@ -7,7 +7,7 @@
 namespace tacipc {
 namespace {
 
-/// Normal deviates one after the other, in a fixed order.
+/// Normal deviates in a fixed order.
 class Deviates {
  public:
   explicit Deviates(int seed) : seed_(static_cast<std::uint64_t>(seed)) {}
@@ -25,10 +25,10 @@ class Deviates {
 
 void perturb(Sensor& sensor, const Perturbation& by) {
   Deviates deviates(by.seed);
-  // Where light is refracted nothing may enter the gel, however far it is thrown.
+  // If light is refracted, nothing may enter the gel, however large the deviate.
   const double nearest = sensor.stack.refracts() ? sensor.stack.back_z_m() - 1e-5 : -1e-5;
   for (Led& led : sensor.leds) {
-    const bool embedded = led.position_m.z() > nearest;  // in a layer: stays at its height
+    const bool embedded = led.position_m.z() > nearest;  // an LED inside a layer keeps its height
     Vector3 moved = led.position_m + deviates.next3(by.led_position_m);
     moved.z() = embedded ? led.position_m.z() : std::min(moved.z(), nearest);
     led.position_m = moved;

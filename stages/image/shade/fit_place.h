@@ -1,4 +1,4 @@
-// Finds where on a photograph a simulated press belongs.
+// Finds the position of a simulated press on a photograph.
 #pragma once
 
 #include "common/benchmark/image_places.h"
@@ -10,14 +10,14 @@
 
 namespace tacipc {
 
-/// Front of a press moved from the origin to its place in the image.
+/// Front of a press, moved from the origin to its position in the image.
 Positions at_place(const Positions& front, const ImagePlace& place, const Sensor& sensor);
 
-/// What the camera sees of a frame at a place, with the object's print if its relief is given.
+/// Camera's view of a frame at a position, with the object's print if its relief is given.
 MembraneView view_at(const FrontFrames& press, int frame, const ImagePlace& place, const PrintRelief* relief,
                      const Sensor& sensor);
 
-/// The place at which the press explains the photograph best, by search_place.
+/// Position at which the press explains the photograph best, by search_place.
 FittedPlace fit_place(const FrontFrames& press, int frame, const ImagePlace& start, const PlaceFit& fit,
                       const ByteImage& photograph, const ByteImage& background, const LightField& light,
                       const Sensor& sensor, const PrintRelief* relief = nullptr);

@@ -36,11 +36,11 @@ const StageSpec kShade{
                 .required = false,
                 .many = true}}};
 
-/// Processor seconds of images, files not counted.
+/// Processor seconds per image, without files.
 struct Times {
   std::vector<double> view_s = {}, light_s = {};
 
-  /// Calls `work` and notes what it took.
+  /// Calls `work` and records its time.
   template <typename Work>
   static auto timed(std::vector<double>& times, Work&& work) {
     const std::clock_t started = std::clock();
@@ -51,7 +51,7 @@ struct Times {
   void tell(Stage& stage) const { stage.cost({{"view_s", upper_median(view_s)}, {"light_s", upper_median(light_s)}}); }
 };
 
-/// Pictures one membrane and writes it under its name, with its normals and its depth along the camera's axis.
+/// Renders one membrane and writes the image under its name, with its normals and its depth along the camera's axis.
 void deliver(Stage& stage, const std::string& name, const MembraneView& view, const Sensor& sensor,
              const LightField& light, const ByteImage& background, Times& times) {
   write_png(stage.output(name + ".png"),
@@ -119,7 +119,7 @@ void shade_press(Stage& stage, const ImagePlaces& config, const Sensor& sensor, 
   stage.summarize(summary);
 }
 
-/// contact.yaml
+/// Content of contact.yaml.
 struct ContactRim {
   double gap_m = 0.0;
   static ContactRim read(ConfigReader& in) { return {1e-3 * in.number("contact_gap_mm", Range::positive())}; }

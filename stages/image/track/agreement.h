@@ -1,4 +1,4 @@
-// Distance of tracks from the known markers.
+// Compares tracks with the known markers.
 #pragma once
 
 #include <vector>
@@ -7,16 +7,17 @@
 
 namespace tacipc {
 
+/// Statistics of the comparison.
 struct Agreement {
   int markers = 0;       // tracks that begin at a known marker
-  int visible = 0;       // places of those that the pictures show, all frames
-  int lost = 0;          // of them not found
-  double mean_px = 0.0;  // distance of those found
+  int visible = 0;       // marker positions visible in the pictures, all frames
+  int lost = 0;          // visible positions that were not found
+  double mean_px = 0.0;  // distance of the positions that were found
   double max_px = 0.0;
 };
 
-/// `truth` per frame of `tracks`, px, NaN where a marker is not seen. A track belongs to the marker that is nearest to
-/// where it begins, within one rest diameter.
+/// Compares tracks with `truth`, positions in px per frame of `tracks`, NaN where a marker is not visible. A track
+/// belongs to the marker that is nearest to its beginning, within one rest diameter.
 Agreement agreement(const MarkerTracks& tracks, const std::vector<std::vector<Eigen::Vector2d>>& truth);
 
 }  // namespace tacipc

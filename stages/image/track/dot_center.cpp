@@ -11,7 +11,7 @@ namespace {
 /// Light around a dot as a + b x + c y, x and y from its centre.
 using Plane = Eigen::Vector3d;
 
-/// Calls `visit(offset from centre, light)` for the pixels of the image whose centres lie within `radius` of `center`.
+/// Calls `visit(offset from centre, light)` for the image's pixels whose centres lie within `radius` of `center`.
 template <typename Visit>
 void for_pixels(const FloatImage& light, const Eigen::Vector2d& center, double radius, Visit&& visit) {
   const auto first = [](double at) { return static_cast<int>(std::ceil(at - 0.5)); };
@@ -28,7 +28,8 @@ double on_plane(const Plane& plane, const Eigen::Vector2d& at) {
   return plane[0] + plane[1] * at.x() + plane[2] * at.y();
 }
 
-/// Least squares over the ring, again without pixels that are much darker than the plane before: neighbours.
+/// Least squares over the ring, repeated without pixels much darker than the previous plane, which belong to
+/// neighbours.
 std::optional<Plane> fit_ring(const FloatImage& light, const Eigen::Vector2d& center, const DotWindow& window) {
   constexpr int kMinPixels = 12;
   std::optional<Plane> plane;
@@ -97,7 +98,7 @@ std::optional<DotCenter> dot_center(const FloatImage& light, const Eigen::Vector
     const Eigen::Vector2d shift = moment / area;
     dot.px += shift;
     if (shift.norm() < kConvergedPx) return dot;
-    // Pixels that come into the window at one place and leave it at the next can make it swing between both.
+    // Pixels that enter the window at one position and leave it at the next can make the centre oscillate between both.
     if (round + 1 == kMaxRounds && shift.norm() < kLargestSwingPx) {
       dot.px -= 0.5 * shift;
       return dot;

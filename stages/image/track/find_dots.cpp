@@ -38,8 +38,8 @@ std::vector<Spot> spots(const FloatImage& light, const TrackConfig& config) {
   return found;
 }
 
-/// Rows from the top, each from the left: a row ends where the next dot lies further below its mean than half the
-/// median spacing.
+/// Sorts into rows from the top, each from the left. A row ends where the next dot lies farther below its mean than
+/// half the median spacing.
 void sort_for_reading(std::vector<DotCenter>& dots, double spacing_px) {
   const auto by_row = [](const DotCenter& a, const DotCenter& b) { return a.px.y() < b.px.y(); };
   const auto by_column = [](const DotCenter& a, const DotCenter& b) { return a.px.x() < b.px.x(); };

@@ -1,4 +1,4 @@
-// Dark dots in an image, without start positions.
+// Finds dark dots in an image without start positions.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace tacipc {
 
-/// Spots darker than what surrounds them, with centres (dot_center), in reading order: rows from the top, each from the
-/// left. Surroundings are the morphological closing of the light by a disc wider than any dot; what lies half of
-/// `least_contrast` below belongs to a spot, and connected spots whose disc of equal area has a diameter within the
-/// bounds, at most twice as long as wide and clear of the image's edge, are dots.
+/// Spots darker than their surroundings, with centres (dot_center), in reading order: rows from the top, each from the
+/// left. The surroundings are the morphological closing of the light by a disc wider than any dot. Pixels darker by
+/// half of `least_contrast` belong to a spot. A connected spot is a dot if the disc of equal area has a diameter within
+/// the bounds, the spot is at most twice as long as wide, and it does not touch the image's edge.
 std::vector<DotCenter> find_dots(const FloatImage& light, const TrackConfig& config);
 
-/// Distance from each point to the nearest other, px; 10⁹ where there is none.
+/// Distance from each point to its nearest neighbour, px; 10⁹ for a single point.
 std::vector<double> spacings(const std::vector<Eigen::Vector2d>& points);
 
 }  // namespace tacipc

@@ -24,8 +24,8 @@ std::vector<std::optional<Eigen::Vector2d>> flow(const ByteImage& from, const By
                                                  const TrackConfig& config) {
   std::vector<std::optional<Eigen::Vector2d>> out(points.size());
   if (points.empty()) return out;
-  cv::setNumThreads(1);  // --threads is not OpenCV's to exceed, and these images are small
-  // OpenCV counts from pixel centres, we from the image's corner.
+  cv::setNumThreads(1);  // OpenCV must not exceed --threads, and these images are small
+  // OpenCV counts from pixel centres, TacIPC from the image's corner.
   std::vector<cv::Point2f> start, there, back;
   for (const Eigen::Vector2d& p : points)
     start.emplace_back(static_cast<float>(p.x() - 0.5), static_cast<float>(p.y() - 0.5));

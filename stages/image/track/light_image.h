@@ -1,4 +1,4 @@
-// Light of an image, from its codes.
+// Computes the light of an image from its grey levels.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace tacipc {
 
-/// Mean over the channels of the linear light behind 8-bit codes, in [0, 1]: of `srgb` by IEC 61966-2-1's curve, of
-/// `linear` code / 255. In light, a pixel that a dot half covers lies half way between dot and surrounding; in codes it
-/// does not.
+/// Mean over the channels of the linear light of 8-bit grey levels, in [0, 1]: for `srgb` by the curve of IEC
+/// 61966-2-1, for `linear` level / 255. A pixel half covered by a dot is half way between dot and surroundings in
+/// light, but not in grey levels.
 FloatImage light_of(const ByteImage& image, const std::string& curve);
 
 }  // namespace tacipc

@@ -22,7 +22,7 @@ const StageSpec kTrack{
                 .help = "markers to follow, as positions in the first image (NPY, #M × 2, px)",
                 .required = false}}};
 
-/// Places in px from an (#M, 2) array.
+/// Positions in px from an (#M, 2) array.
 std::vector<Eigen::Vector2d> read_places(const fs::path& file) {
   const MarkerPixels px = read_marker_px(file);
   std::vector<Eigen::Vector2d> places;
@@ -30,7 +30,7 @@ std::vector<Eigen::Vector2d> read_places(const fs::path& file) {
   return places;
 }
 
-/// The images and the numbers of their frames; of render also where the markers are known to be.
+/// Images and their frame numbers; for render also the known positions of the markers.
 struct Series {
   std::vector<fs::path> images = {};
   std::vector<int> frames = {};

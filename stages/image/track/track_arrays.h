@@ -1,10 +1,11 @@
-// The arrays that track writes.
+// Arrays that track writes.
 #pragma once
 
 #include "common/format/npy_field.h"
 
 namespace tacipc {
 
+/// Marker positions per frame.
 inline const NpyField& marker_track_field() {
   static const NpyField kField{
       .file = "marker_track.npy",
@@ -16,7 +17,7 @@ inline const NpyField& marker_track_field() {
   return kField;
 }
 
-/// Numbers of TrackQuality.
+/// Values of TrackQuality.
 inline const NpyField& marker_quality_field() {
   static const NpyField kField{.file = "marker_quality.npy",
                                .type = NpyType::u1,

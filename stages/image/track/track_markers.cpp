@@ -16,11 +16,11 @@ namespace {
 
 const Eigen::Vector2d kLost = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
 
-/// What is known of a marker from the first image.
+/// Data of a marker from the first image.
 struct Marker {
   DotCenter rest;
   double spacing_px = 0.0;
-  std::vector<std::size_t> neighbours = {};  // of the markers with a dot, nearest first
+  std::vector<std::size_t> neighbours = {};  // indices of the markers with a dot, nearest first
 };
 
 std::vector<Marker> markers_of(const std::vector<DotCenter>& dots) {
@@ -41,7 +41,7 @@ std::vector<Marker> markers_of(const std::vector<DotCenter>& dots) {
   return markers;
 }
 
-/// Median over the neighbours that flow has found, per coordinate; nothing if there are fewer than two.
+/// Median displacement of the neighbours that flow has found, per coordinate; nothing for fewer than two.
 std::optional<Eigen::Vector2d> neighbours_displacement(const std::vector<Marker>& markers, const Marker& marker,
                                                        const std::vector<std::optional<Eigen::Vector2d>>& found) {
   std::vector<double> x, y;
@@ -60,7 +60,7 @@ struct Found {
   std::vector<TrackQuality> quality;
 };
 
-/// The dot near a prediction, if there is one that can be the marker's.
+/// Dot near a prediction, if one can be the marker's.
 std::optional<DotCenter> dot_near(const FloatImage& light, const Eigen::Vector2d& predicted, const Marker& marker,
                                   double spacing_px, const TrackConfig& config) {
   const DotWindow window = DotWindow::of(marker.rest.diameter_px(), spacing_px);
@@ -71,7 +71,7 @@ std::optional<DotCenter> dot_near(const FloatImage& light, const Eigen::Vector2d
   return dot;
 }
 
-/// Of two markers nearer to each other than half a rest diameter only the better predicted keeps its place.
+/// Of two markers nearer to each other than half a rest diameter, only the better predicted one keeps its position.
 void drop_shared_dots(const std::vector<Marker>& markers, const std::vector<Eigen::Vector2d>& predicted, Found& found) {
   for (std::size_t i = 0; i < markers.size(); ++i)
     for (const std::size_t j : markers[i].neighbours) {
@@ -129,7 +129,7 @@ Found follow(const std::vector<Marker>& markers, double spacing_px, const Found&
   return now;
 }
 
-/// For each place the nearest dot that is not taken yet, within half the spacing of the places and of the dots.
+/// For each start position the nearest free dot, within half the spacing of the positions and of the dots.
 std::vector<std::optional<std::size_t>> matched(const std::vector<Eigen::Vector2d>& start,
                                                 const std::vector<DotCenter>& dots) {
   std::vector<Eigen::Vector2d> there;
@@ -155,7 +155,7 @@ MarkerTracks track_markers(int count, const std::function<ByteImage(int)>& image
                            const std::optional<std::vector<Eigen::Vector2d>>& start) {
   ByteImage previous = image(0);
   std::vector<DotCenter> dots = find_dots(light_of(previous, config.curve), config);
-  // Which row of the answer each dot belongs to.
+  // Row of the result for each dot.
   std::vector<std::size_t> row_of;
   if (start) {
     std::vector<DotCenter> chosen;

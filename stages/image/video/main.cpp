@@ -31,7 +31,7 @@ const StageSpec kVideo{
 struct Filmed {
   std::vector<fs::path> presses;
   std::size_t frames = 0;
-  std::vector<double> times_s;  // none where they are not known
+  std::vector<double> times_s;  // empty if they are unknown
 };
 
 Filmed read_filmed(const fs::path& folder) {
@@ -47,7 +47,7 @@ Filmed read_filmed(const fs::path& folder) {
   return filmed;
 }
 
-/// The folder of a gel's images, by the press that its record names.
+/// Folder of a gel's images, identified by the press in its record.
 const fs::path& images_of(const fs::path& press, const std::vector<fs::path>& renders) {
   for (const fs::path& render : renders) {
     if (!fs::is_regular_file(render / "render.yaml"))
@@ -58,7 +58,7 @@ const fs::path& images_of(const fs::path& press, const std::vector<fs::path>& re
   throw DataError("no --render is of {}", press.string());
 }
 
-/// 0 for auto.
+/// Factor of slow motion; 0 for auto.
 double slowness(const std::string& text) {
   if (text == "auto") return 0.0;
   const auto slower = parse_number<double>(text);

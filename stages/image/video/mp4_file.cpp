@@ -20,7 +20,7 @@ namespace tacipc {
 namespace {
 
 constexpr AVRational kTick{1, 90000};
-constexpr int kKeyEvery = 50;  // frames; players may jump to these
+constexpr int kKeyEvery = 50;  // frames between key frames, to which players can jump
 
 }  // namespace
 
@@ -56,8 +56,8 @@ struct Mp4File::Parts {
   std::unique_ptr<SwsContext, mp4_file::FreeScale> scale;
   mp4_file::FramePtr frame;
   mp4_file::PacketPtr packet;
-  double shown_s = 0.0;             // of all frames so far
-  std::vector<std::int64_t> ticks;  // for which each frame is shown
+  double shown_s = 0.0;             // total duration of the frames so far
+  std::vector<std::int64_t> ticks;  // duration of each frame
   std::size_t written = 0;
 
   /// \throw DataError if a call of a library has failed
@@ -77,7 +77,7 @@ struct Mp4File::Parts {
     c.pix_fmt = AV_PIX_FMT_YUV420P;
     c.time_base = kTick;
     c.gop_size = kKeyEvery;
-    c.max_b_frames = 0;  // frames leave in the order in which they come
+    c.max_b_frames = 0;  // frames leave in the order of their arrival
     c.thread_count = 1;
     c.color_range = AVCOL_RANGE_MPEG;
     c.colorspace = AVCOL_SPC_BT709;
@@ -116,7 +116,7 @@ struct Mp4File::Parts {
     check(avformat_write_header(format.get(), nullptr));
   }
 
-  /// Codes a frame, or what is left if there is none, and writes what is ready.
+  /// Encodes a frame, or the remaining data if there is none, and writes the finished packets.
   void code(const AVFrame* image) {
     check(avcodec_send_frame(codec.get(), image));
     for (int code;
@@ -148,7 +148,7 @@ void Mp4File::add(const ByteImage& image, double seconds) {
   const std::uint8_t* const pixels[] = {image.pixels.data()};
   const int row = 3 * image.width;
   sws_scale(p.scale.get(), pixels, &row, 0, image.height, p.frame->data, p.frame->linesize);
-  // From the rounded beginning to the rounded end, so that errors do not add up.
+  // Times are rounded at both ends, so that errors do not add up.
   p.frame->pts = std::llround(p.shown_s / av_q2d(kTick));
   p.shown_s += seconds;
   p.ticks.push_back(std::max<std::int64_t>(1, std::llround(p.shown_s / av_q2d(kTick)) - p.frame->pts));

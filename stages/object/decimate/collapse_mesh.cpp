@@ -17,7 +17,8 @@ void CollapseMesh::build(const std::vector<OpenMesh::Vec3d>& points, const Trian
   const auto num_faces = static_cast<std::size_t>(triangles.rows());
   reserve(points.size(), 3 * num_faces / 2, num_faces);
   for (const OpenMesh::Vec3d& point : points) set_point(new_vertex(), point);
-  // Edges by their first vertex, chained: the last one found there, and of each the one before it.
+  // Edges by their first vertex, as linked lists: the last edge found at each vertex, and for each edge the previous
+  // one.
   constexpr int kNone = -1;
   std::vector<int> last(points.size(), kNone), before;
   const auto halfedge_between = [&](int a, int b, Eigen::Index f) {
@@ -44,7 +45,7 @@ void CollapseMesh::build(const std::vector<OpenMesh::Vec3d>& points, const Trian
       set_halfedge_handle(VertexHandle(a), sides[k]);
     }
     for (std::size_t k = 0; k < 3; ++k) set_next_halfedge_handle(sides[k], sides[(k + 1) % 3]);
-    set_halfedge_handle(face, sides[2]);  // the last: corners are then read from the first
+    set_halfedge_handle(face, sides[2]);  // last halfedge, so that corners are read from the first
   }
   for (unsigned h = 0; h < n_halfedges(); ++h) {
     if (!face_handle(HalfedgeHandle(static_cast<int>(h))).is_valid())
@@ -88,7 +89,7 @@ void CollapseMesh::merge_edges(HalfedgeHandle kept, HalfedgeHandle gone) {
   set_next_halfedge_handle(prev_halfedge_handle(replaced), kept);
   set_face_handle(kept, beyond);
   if (halfedge_handle(beyond) == replaced) set_halfedge_handle(beyond, kept);
-  // The corner opposite to the collapsed edge may have known but the edge that goes.
+  // The corner opposite to the collapsed edge may have referred to the edge that is removed.
   for (const HalfedgeHandle h : {gone, replaced}) {
     const VertexHandle v = from_vertex_handle(h);
     if (halfedge_handle(v) == h) set_halfedge_handle(v, h == replaced ? kept : opposite_halfedge_handle(kept));

@@ -1,4 +1,4 @@
-// The half-edge mesh whose edges collapse.
+// Half-edge mesh whose edges collapse.
 #pragma once
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
@@ -21,31 +21,33 @@ struct CollapseTraits : OpenMesh::DefaultTraits {
   FaceAttributes(OpenMesh::Attributes::Status | OpenMesh::Attributes::Normal);
 };
 
-/// A closed triangle mesh. The decimater calls the two operations below by name; those of the library do the same, but
-/// Debian builds it with assertions, which compare the names of types at each access: more than half of the time of a
-/// decimation.
+/// Closed triangle mesh. The decimater calls `is_collapse_ok` and `collapse` by name. OpenMesh's own versions do the
+/// same, but Debian builds them with assertions that compare type names at each access, which takes more than half of
+/// the time of a decimation.
 class CollapseMesh : public OpenMesh::TriMesh_ArrayKernelT<CollapseTraits> {
  public:
   using Quadric = OpenMesh::Geometry::Quadricd;
 
-  /// Vertices with these points and faces with these corners, in their order. \throw DataError where an edge is not
-  /// between two faces that look the same way, or several sheets meet in one vertex
+  /// Builds the mesh from points and faces, in their order.
+  /// \throw DataError if an edge is not between two faces of consistent orientation, or several sheets meet in one
+  /// vertex
   void build(const std::vector<OpenMesh::Vec3d>& points, const Triangles& triangles);
 
-  /// Link condition: the ends have no neighbours in common but the two corners opposite to the edge. Not at boundaries.
+  /// Link condition: the ends share no neighbours except the two corners opposite to the edge. Not for boundary edges.
   bool is_collapse_ok(OpenMesh::HalfedgeHandle h);
-  /// Takes the vertex the halfedge comes from, its edge and the faces beside it out. \pre is_collapse_ok(h)
+  /// Removes the origin of the halfedge, its edge and the adjacent faces. \pre is_collapse_ok(h)
   void collapse(OpenMesh::HalfedgeHandle h);
 
-  /// Σ of squared distances to planes, for each vertex: what it and those merged into it lay in.
+  /// Quadric of each vertex: sum of squared distances to the planes of its own faces and of the vertices merged into
+  /// it.
   std::vector<Quadric> quadrics;
 
  private:
   void check_fans(const Triangles& triangles) const;
-  /// Closes the gap of a face that is taken out: the halfedge `kept` of it takes the place of the opposite of `gone`.
+  /// Closes the gap of a removed face: its halfedge `kept` replaces the opposite of `gone`.
   void merge_edges(OpenMesh::HalfedgeHandle kept, OpenMesh::HalfedgeHandle gone);
 
-  std::vector<unsigned> seen_;  // by vertex: the last question in which it was a neighbour
+  std::vector<unsigned> seen_;  // per vertex, the last query in which it was a neighbour
   unsigned question_ = 0;
 };
 

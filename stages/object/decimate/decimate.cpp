@@ -2,7 +2,7 @@
 
 #include "stages/object/decimate/collapse_mesh.h"
 
-// After the mesh, whose traits they use without including them.
+// Included after the mesh, whose traits these use without including them.
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModAspectRatioT.hh>
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
@@ -20,19 +20,20 @@ namespace {
 
 using Mesh = CollapseMesh;
 
-/// Quadric errors are kept as floats, which metres to the fourth power would leave.
+/// Quadric errors are stored as floats, and metres to the fourth power would underflow.
 constexpr double kUnitsPerMetre = 1e3;
 constexpr double kMoreVertices = 1.5;
-/// Passes over all vertices leave so many times the target; a queue in order of cost does the rest.
+/// Passes over all vertices stop at this multiple of the target; a queue in order of cost does the rest.
 constexpr std::size_t kQueueFrom = 8;
-/// They take what costs less than a distance: first this part of the mesh's extent, then the factor farther, and so on.
+/// Passes accept collapses that cost less than a distance: first this fraction of the mesh's extent, then `kFarther`
+/// times more, and so on.
 constexpr double kFirstDistance = 1e-5, kFarther = 2.0;
-/// A pass that takes less than this part of the vertices has used its distance up.
+/// A pass that removes less than this fraction of the vertices has exhausted its distance.
 constexpr double kFruitless = 0.05;
-/// Normals of two faces that differ by more than 60 degrees meet in a crease.
+/// Faces whose normals differ by more than 60 degrees meet in a crease.
 constexpr double kCreaseCosine = 0.5;
 
-/// The library's link condition lets a tetrahedron collapse into two faces back to back; this forbids it.
+/// Forbids a tetrahedron to collapse into two faces back to back, which the library's link condition allows.
 template <typename MeshT>
 class ModKeepSolid : public OpenMesh::Decimater::ModBaseT<MeshT> {
  public:
@@ -45,7 +46,7 @@ class ModKeepSolid : public OpenMesh::Decimater::ModBaseT<MeshT> {
 };
 
 /// Cost of moving a vertex: Σ squared distance to the planes of all faces merged into either end [Garland1997]. Planes
-/// count alike whatever their face's area, so that a step of narrow faces is worth as much as its height says.
+/// have equal weight regardless of face area, so that a step of narrow faces counts by its height.
 template <typename MeshT>
 class ModPlaneDistance : public OpenMesh::Decimater::ModBaseT<MeshT> {
  public:
@@ -58,7 +59,7 @@ class ModPlaneDistance : public OpenMesh::Decimater::ModBaseT<MeshT> {
     auto& quadrics = Base::mesh().quadrics;
     quadrics[info.v1.idx()] += quadrics[info.v0.idx()];
   }
-  /// Of moving the first vertex to the second, mm².
+  /// Cost of moving the first vertex to the second, mm².
   static double cost(const MeshT& mesh, OpenMesh::VertexHandle from, OpenMesh::VertexHandle to) {
     auto both = mesh.quadrics[from.idx()];
     both += mesh.quadrics[to.idx()];
@@ -66,8 +67,8 @@ class ModPlaneDistance : public OpenMesh::Decimater::ModBaseT<MeshT> {
   }
 };
 
-/// Along a sharp edge, planes through it across both faces: without them the rim of a thin sheet, all of whose faces
-/// lie in one plane, could wander at no cost.
+/// Adds, along a sharp edge, planes through the edge perpendicular to both faces. Without them the rim of a thin sheet,
+/// whose faces all lie in one plane, could move at no cost.
 void add_crease(Mesh& mesh, OpenMesh::HalfedgeHandle h) {
   const OpenMesh::Vec3d first = mesh.normal(mesh.face_handle(h));
   const OpenMesh::Vec3d second = mesh.normal(mesh.opposite_face_handle(h));
@@ -92,14 +93,14 @@ void find_quadrics(Mesh& mesh) {
     add_crease(mesh, mesh.halfedge_handle(*edge, 0));
 }
 
-/// Collapses in passes: each takes, vertex by vertex, the cheapest edge that may collapse, if that costs less than the
-/// pass allows and nothing near it has collapsed in the same pass. A tenth of the time of a queue, which looks at every
-/// neighbour again after every collapse.
+/// Collapses edges in passes. Each pass takes, vertex by vertex, the cheapest permitted edge if it costs less than the
+/// pass allows and nothing near it has collapsed in the same pass. This takes a tenth of the time of a queue, which
+/// reevaluates every neighbour after every collapse.
 class CollapsePasses : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
  public:
   explicit CollapsePasses(Mesh& mesh) : BaseDecimaterT(mesh), mesh_(mesh), near_(mesh.n_vertices(), 0) {}
 
-  /// Stops at the target, or at a distance as large as the mesh. \return vertices left
+  /// Stops at the target, or at a distance as large as the mesh. \return number of vertices left
   std::size_t collapse_to(std::size_t target, double extent) {
     std::size_t left = mesh_.n_vertices();
     for (double distance = kFirstDistance * extent; left > target && distance < extent; distance *= kFarther) {
@@ -152,7 +153,7 @@ class CollapsePasses : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
   }
 
   Mesh& mesh_;
-  std::vector<int> near_;  // by vertex: the last pass that collapsed something beside it
+  std::vector<int> near_;  // per vertex, the last pass with a collapse next to it
   int pass_ = 0;
   std::vector<Choice> choices_;
 };
@@ -168,7 +169,7 @@ Mesh to_openmesh(const TriangleMesh& mesh) {
   return out;
 }
 
-/// What is left, with the coordinates of the input bit by bit.
+/// Remaining mesh, with the coordinates of the input bit by bit.
 TriangleMesh remaining(const Mesh& collapsed, const TriangleMesh& input) {
   std::vector<int> corners;
   for (int f = 0; f < static_cast<int>(input.num_triangles()); ++f) {
@@ -181,7 +182,7 @@ TriangleMesh remaining(const Mesh& collapsed, const TriangleMesh& input) {
   return out;
 }
 
-/// The rules of a collapse.
+/// Adds the rules of a collapse.
 void add_rules(OpenMesh::Decimater::BaseDecimaterT<Mesh>& decimater, const CollapseConfig& config, bool watch_shape) {
   ModPlaneDistance<Mesh>::Handle distance;
   OpenMesh::Decimater::ModNormalFlippingT<Mesh>::Handle flipping;
@@ -204,7 +205,7 @@ std::size_t vertices_left(const Mesh& mesh) {
   return left;
 }
 
-/// The cheapest collapse of all first.
+/// Collapses the cheapest edge of all first.
 void collapse_by_queue(Mesh& mesh, std::size_t target, const CollapseConfig& config, bool watch_shape) {
   const std::size_t left = vertices_left(mesh);
   if (left <= target) return;
@@ -224,7 +225,7 @@ TriangleMesh collapse_once(const TriangleMesh& input, int target, const Collapse
     passes.collapse_to(kQueueFrom * wanted, kUnitsPerMetre * largest_extent(input));
   }
   collapse_by_queue(mesh, wanted, config, true);
-  // Where well-shaped faces alone do not lead to the target, thin ones are accepted.
+  // If well-shaped faces alone do not reach the target, thin ones are accepted.
   collapse_by_queue(mesh, wanted, config, false);
   return remaining(mesh, input);
 }

@@ -1,4 +1,4 @@
-// configs/objects/decimate/*.yaml
+// Content of configs/objects/decimate/*.yaml.
 #pragma once
 
 #include "common/config/config.h"
@@ -8,6 +8,7 @@
 
 namespace tacipc {
 
+/// Configuration of decimate.
 struct DecimateConfig {
   CollapseConfig collapse;
   DoctorConfig doctor;

@@ -36,13 +36,12 @@ std::vector<double> extents_mm(const TriangleMesh& mesh) {
   return {1e3 * extents[0], 1e3 * extents[1], 1e3 * extents[2]};
 }
 
-/// Where on the gel the middle of the bounding box must be for the best window to lie in the sensor's.
+/// Position on the gel of the bounding box's centre at which the best window lies in the sensor's field of view.
 std::vector<double> center_mm(const SideView& view) {
   return {0.0 - 1e3 * view.place_m[0], 0.0 - 1e3 * view.place_m[1]};
 }
 
-/// What of it matters to a press: which side, where on the gel (the sample file's `center_mm`), and what is odd about
-/// it.
+/// Lines for a press: the side, the position on the gel (the sample file's `center_mm`), and warnings.
 Value::Map sides_of(const SideSurvey& survey, const std::string& hint) {
   Value::List views;
   for (const SideView& view : survey.views) {
@@ -61,7 +60,7 @@ Value::Map sides_of(const SideSurvey& survey, const std::string& hint) {
           {"views", std::move(views)}};
 }
 
-/// Why the unit may be wrong: the object is far from the window's size, and another unit would make it about as large.
+/// Hint that the unit may be wrong: the object's size is far from the window's, and another unit would bring it near.
 std::string size_hint(const SideSurvey& survey, double extent_m, const std::string& unit) {
   constexpr double kFar = 5.0;
   const double window_m = std::max(survey.window_m[0], survey.window_m[1]);
@@ -95,7 +94,7 @@ DecimatedObject decimate_object(const TriangleMesh& scan, const DecimateConfig& 
   const TriangleMesh sound = treat_mesh(scan, config.doctor, found);
   if (!found.changed_mesh()) log_info("nothing to repair");
 
-  // A union of overlapping parts, or a scan that crosses itself, cannot be asked not to.
+  // A union of overlapping parts, or a scan that crosses itself, cannot be required not to cross.
   const bool may_not_cross = found.self_intersections == 0 && found.overlapping_components == 0;
   if (sound.num_vertices() > config.collapse.target_vertices)
     log_info("collapsing edges until {} vertices are left", config.collapse.target_vertices);
@@ -109,7 +108,7 @@ DecimatedObject decimate_object(const TriangleMesh& scan, const DecimateConfig& 
   if (!collapsed.passed_through && mesh.num_vertices() > collapsed.target_vertices)
     log_warning("{} vertices are left: no further edge can collapse without flipping a face", mesh.num_vertices());
 
-  // Against the scan as the doctor left it: what was removed as debris or hidden is not part of the object.
+  // Distance to the scan after the doctor: parts removed as debris or hidden do not belong to the object.
   const Hausdorff distance = collapsed.passed_through ? Hausdorff{} : hausdorff_distance(sound, mesh, config.hausdorff);
   if (!collapsed.passed_through) log_info("Hausdorff distance {:.4g} mm", 1e3 * distance.max_m());
 

@@ -1,4 +1,4 @@
-// From any scan to the mesh the simulation can afford, with the distance between the two.
+// Reduces any scan to a mesh that is small enough to simulate, and measures the distance between both.
 #pragma once
 
 #include <optional>
@@ -9,14 +9,15 @@
 
 namespace tacipc {
 
+/// Result of decimate.
 struct DecimatedObject {
   TriangleMesh mesh;
-  Value::Map summary;                             // for the record; lengths in mm
-  std::optional<ByteImage> sides = std::nullopt;  // picture of what each shows, where a sensor's window is known
+  Value::Map summary;                             // lines for the record; lengths in mm
+  std::optional<ByteImage> sides = std::nullopt;  // picture of the six sides, if a sensor's field of view is known
 };
 
-/// Doctor, collapse, Hausdorff distance between what came in and what goes out; then, for a sensor, which side to
-/// press. \throw DataError as they do.
+/// Runs mesh doctor, edge collapse, and the Hausdorff distance between input and output; then, for a sensor, selects
+/// the side to press. \throw DataError as these steps do
 DecimatedObject decimate_object(const TriangleMesh& scan, const DecimateConfig& config);
 
 }  // namespace tacipc

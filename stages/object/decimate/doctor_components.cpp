@@ -47,7 +47,7 @@ void examine_components(TriangleMesh& mesh, DoctorReport& report) {
     faces[part].push_back(f);
     for (int k = 0; k < 3; ++k) boxes[part].extend(corner(mesh, f, k));
   }
-  // A part that crosses nothing lies inside another wholly or not at all, so one vertex tells.
+  // A part that crosses nothing lies entirely inside another or entirely outside, so one vertex decides.
   std::vector<char> hidden(count, 0);
   tbb::parallel_for(0, components.count, [&](int inner) {
     for (int outer = 0; outer < components.count && hidden[inner] == 0; ++outer) {
@@ -65,7 +65,7 @@ void examine_components(TriangleMesh& mesh, DoctorReport& report) {
   if (report.hidden_components == 0) return;
   report.components -= report.hidden_components;
   mesh.triangles = select_faces(mesh.triangles, keep);
-  // Crossings of what was removed no longer matter.
+  // Crossings of removed parts no longer matter.
   DoctorReport again;
   examine_components(mesh, again);
   report.overlapping_components = again.overlapping_components;

@@ -9,12 +9,12 @@
 namespace tacipc {
 namespace {
 
-/// A face counts as one without area where its height is below this fraction of its longest edge.
+/// A face counts as having no area if its height is below this fraction of its longest edge.
 constexpr double kFlatRelativeHeight = 1e-9;
-/// Each pass of flips may uncover new faces without area; chains in real files are short.
+/// Each pass of flips may reveal new faces without area; chains in real files are short.
 constexpr int kMaxPasses = 20;
 
-/// Makes one vertex, the lowest, of each set; returns how many went.
+/// Merges each set into its lowest vertex. \return number of vertices removed
 std::int64_t merge(DisjointSets& sets, Triangles& triangles) {
   std::int64_t merged = 0;
   for (int v = 0; v < sets.size(); ++v) merged += sets.root(v) != v ? 1 : 0;
@@ -22,7 +22,7 @@ std::int64_t merge(DisjointSets& sets, Triangles& triangles) {
   return merged;
 }
 
-/// Vertices of edges that only one face has, ascending.
+/// Vertices of edges that belong to a single face, ascending.
 std::vector<int> open_vertices(const Triangles& triangles) {
   std::vector<int> open;
   for_each_edge(edge_uses(triangles), [&](std::span<const EdgeUse> edge) {
@@ -36,7 +36,7 @@ std::vector<int> open_vertices(const Triangles& triangles) {
 struct Shape {
   int longest;    // half edge
   int shortest;   // half edge
-  double length;  // of the longest
+  double length;  // length of the longest edge
   double shortest_length;
   double height;
 };
@@ -65,7 +65,7 @@ std::int64_t drop_collapsed_faces(TriangleMesh& mesh) {
   return dropped;
 }
 
-/// One pass over the faces without area: true if it changed something.
+/// Makes one pass over the faces without area. \return true if it changed something
 bool treat_flat_faces(TriangleMesh& mesh, DoctorReport& report) {
   std::vector<int> flat;
   std::vector<Shape> shapes;
@@ -106,7 +106,7 @@ bool treat_flat_faces(TriangleMesh& mesh, DoctorReport& report) {
     const int d = target_of(mesh.triangles, next_in_face(other));
     const auto existing = same_edge(c, d);
     if (touched[other / 3] != 0 || c == d || existing.first != existing.second) {
-      keep[face] = 1;  // next pass, when the neighbour has settled
+      keep[face] = 1;  // next pass, after the neighbour is treated
       --report.degenerate_faces;
       continue;
     }
@@ -142,7 +142,7 @@ void weld_open_vertices(TriangleMesh& mesh, double distance_m, DoctorReport& rep
         if ((mesh.positions.row(order[i]) - mesh.positions.row(order[j])).norm() <= distance)
           same.join(order[i], order[j]);
         else if (distance == 0.0)
-          break;  // equal places lie side by side
+          break;  // equal positions are adjacent
       }
     report.merged_vertices += merge(same, mesh.triangles);
   }
@@ -178,7 +178,7 @@ void remove_duplicate_faces(TriangleMesh& mesh, DoctorReport& report) {
     if (uses.empty())
       for (const EdgeUse& use : edge_uses(mesh.triangles)) ++uses[{use.low, use.high}];
     const auto [u, v, w] = faces[first].vertices;
-    // An edge with one other face needs this one to close; a sheet within or beside a closed surface is needed by none.
+    // An edge with one other face needs this one to close; no edge needs a sheet within or next to a closed surface.
     const auto others = [&](int a, int b) { return uses[{a, b}] - copies; };
     const bool needed = others(u, v) == 1 || others(v, w) == 1 || others(u, w) == 1;
     for (std::size_t i = first + (needed ? 1 : 0); i < last; ++i) keep[faces[i].face] = 0, ++removed;

@@ -12,7 +12,7 @@ namespace {
 
 using Loop = std::vector<int>;
 
-/// Vertices of each boundary loop, in the direction a face that fills it must take.
+/// Vertices of each boundary loop, in the direction of a face that fills it.
 std::vector<Loop> boundary_loops(const TriangleMesh& mesh, const std::vector<int>& opposite) {
   constexpr int kNone = -1;
   std::vector<int> open_from(mesh.num_vertices(), kNone);
@@ -35,7 +35,7 @@ std::vector<Loop> boundary_loops(const TriangleMesh& mesh, const std::vector<int
 }
 
 /// Triangulation of least area: best(i, j) = min over k of best(i, k) + best(k, j) + area(i, k, j). Chords that are
-/// edges of the mesh already would join more than two faces, so they are not allowed. Empty if there is none.
+/// already edges of the mesh would join more than two faces, so they are not allowed. Empty if there is none.
 std::vector<std::array<int, 3>> least_area_triangulation(const TriangleMesh& mesh, const Loop& loop,
                                                          const std::set<std::pair<int, int>>& edges) {
   const int n = static_cast<int>(loop.size());

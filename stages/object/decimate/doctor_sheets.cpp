@@ -1,4 +1,4 @@
-// Edges where more than two faces meet, taken apart into surfaces of two faces each.
+// Separates edges where more than two faces meet into surfaces of two faces each.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -11,14 +11,15 @@ namespace {
 
 using Uses = std::span<const EdgeUse>;
 
-/// Of more than two faces.
+/// True for an edge of more than two faces.
 bool crowded(Uses edge) { return edge.size() > 2; }
 
 /// A face at an edge, seen along the edge from its lower to its higher vertex.
 struct Leaf {
   int half_edge;
   double angle;
-  bool forwards;  // runs from the lower to the higher vertex: its matter lies at smaller angles, else at larger ones
+  bool forwards;  // true: it runs from the lower to the higher vertex, with the solid at smaller angles; false: at
+                  // larger ones
 };
 
 std::vector<Leaf> leaves_around(const TriangleMesh& mesh, Uses edge) {
@@ -30,7 +31,7 @@ std::vector<Leaf> leaves_around(const TriangleMesh& mesh, Uses edge) {
     const Vector3 away = Vector3(mesh.positions.row(third)) - from;
     leaves.push_back({half_edge, std::atan2(v.dot(away), u.dot(away)), origin_of(mesh.triangles, half_edge) == low});
   }
-  // Of two faces in one place the one with matter below comes first: they are two solids that touch, not a sheet.
+  // Of two faces at the same angle the one with the solid below comes first: they are two touching solids, not a sheet.
   std::ranges::sort(leaves, [](const Leaf& a, const Leaf& b) {
     if (a.angle != b.angle) return a.angle < b.angle;
     return a.forwards != b.forwards ? a.forwards : a.half_edge < b.half_edge;
@@ -38,7 +39,7 @@ std::vector<Leaf> leaves_around(const TriangleMesh& mesh, Uses edge) {
   return leaves;
 }
 
-/// Pairs each face with its neighbour across matter, the narrowest wedge first; what has no partner stays open.
+/// Pairs each face with its neighbour across the solid, the narrowest wedge first; faces without a partner stay open.
 void pair_leaves(std::vector<Leaf> leaves, std::vector<int>& opposite) {
   for (const Leaf& leaf : leaves) opposite[leaf.half_edge] = kOpen;
   while (leaves.size() > 1) {
@@ -62,7 +63,7 @@ void pair_leaves(std::vector<Leaf> leaves, std::vector<int>& opposite) {
   }
 }
 
-/// As opposite_half_edges, with the faces of crowded edges in pairs.
+/// Opposite half edges as in opposite_half_edges, with the faces of crowded edges in pairs.
 std::vector<int> paired_half_edges(const TriangleMesh& mesh, Uses uses) {
   std::vector<int> opposite(uses.size(), kOpen);
   for_each_edge(uses, [&](Uses edge) {
@@ -72,8 +73,8 @@ std::vector<int> paired_half_edges(const TriangleMesh& mesh, Uses uses) {
   return opposite;
 }
 
-/// Where sheets share both ends of an edge, gives each pair of faces a vertex of its own in the middle. A face is cut
-/// once; edges whose faces are cut already wait for the next round.
+/// Gives each pair of faces its own vertex in the middle of an edge if sheets share both ends of it. A face is cut once
+/// per round; edges of faces that are already cut wait for the next round.
 void halve_edges(TriangleMesh& mesh, Uses uses, const std::vector<int>& opposite) {
   std::vector<char> cut(mesh.num_triangles(), 0);
   std::vector<Eigen::RowVector3d> middles;
@@ -118,7 +119,7 @@ void separate_sheets(TriangleMesh& mesh, DoctorReport& report) {
     uses = edge_uses(mesh.triangles);
     halve_edges(mesh, uses, paired_half_edges(mesh, uses));
   }
-  opposite_half_edges(mesh);  // says where
+  opposite_half_edges(mesh);  // throws with the position
 }
 
 }  // namespace tacipc

@@ -8,11 +8,11 @@
 namespace tacipc {
 namespace {
 
-/// A closed part counts as flat where its volume is below this fraction of its area times its extent.
+/// A closed part counts as flat if its volume is below this fraction of its area times its extent.
 constexpr double kFlatVolume = 1e-9;
-constexpr int kMinFaces = 4;  // of a closed surface
+constexpr int kMinFaces = 4;  // least number of faces of a closed surface
 
-/// Six times the volume between the faces of each part and the middle of its corners, and the area of each part.
+/// Six times the volume of each part, from the middle of its corners, and its area.
 struct Sizes {
   std::vector<double> volume;
   std::vector<double> area;
@@ -105,7 +105,7 @@ void orient_consistently(TriangleMesh& mesh, DoctorReport& report) {
 void split_vertices(TriangleMesh& mesh, DoctorReport& report) { split_fans(mesh, opposite_half_edges(mesh), report); }
 
 void split_fans(TriangleMesh& mesh, const std::vector<int>& opposite, DoctorReport& report) {
-  // Corners of one fan are joined through the edges they share; half edge h stands for the corner it starts from.
+  // Corners of one fan are joined through their common edges; half edge h represents the corner at its start.
   DisjointSets fans(opposite.size());
   for (int h = 0; h < static_cast<int>(opposite.size()); ++h) {
     if (opposite[h] == kOpen) continue;

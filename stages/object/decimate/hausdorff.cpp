@@ -15,18 +15,18 @@ namespace {
 
 constexpr int kChunk = 256;
 constexpr double kSurelyNearer = 1.0 - 1e-12;
-constexpr std::int64_t kFewestPerFace = 4;  // corners and centroid
+constexpr std::int64_t kFewestPerFace = 4;  // the corners and the centroid
 
 struct OneSided {
   double squared = 0.0;
   std::int64_t samples = 0;
 };
 
-/// Points on one face: rows parallel to its longest edge, row 0 that edge, the last row the corner opposite to it.
+/// Points on one face: rows parallel to its longest edge. Row 0 is that edge, the last row the opposite corner.
 struct Lattice {
   Vector3 from, to, apex;
-  int rows;        // after row 0
-  double spacing;  // neighbours in a row, and rows, are at most this far apart
+  int rows;        // number of rows after row 0
+  double spacing;  // largest distance between neighbours in a row, and between rows
 
   Lattice(const TriangleMesh& mesh, int face, double wanted) : spacing(wanted) {
     double longest = -1.0;
@@ -47,19 +47,19 @@ struct Lattice {
     return (1.0 - up) * ((1.0 - along) * from + along * to) + up * apex;
   }
   std::int64_t count() const {
-    std::int64_t sum = 1;  // the centroid
+    std::int64_t sum = 1;  // counts the centroid
     for (int row = 0; row <= rows; ++row) sum += row_steps(row) + 1;
     return sum;
   }
 };
 
-/// The target spacing, doubled until the lattices hold at most `max_samples` points.
+/// Target spacing, doubled until the lattices hold at most `max_samples` points.
 double affordable_spacing(const TriangleMesh& mesh, const HausdorffConfig& config) {
   for (double spacing = config.spacing_m;; spacing *= 2.0) {
     std::int64_t samples = 0;
     const int num_faces = static_cast<int>(mesh.num_triangles());
     for (int f = 0; f < num_faces; ++f) samples += Lattice(mesh, f, spacing).count();
-    // Corners and centroids remain however wide the spacing.
+    // Corners and centroids remain regardless of the spacing.
     if (samples <= config.max_samples || samples <= kFewestPerFace * num_faces) return spacing;
   }
 }
@@ -68,7 +68,7 @@ OneSided farthest_sample(const TriangleMesh& from, const TriangleMesh& to, const
   const TriangleTree tree(to);
   const double spacing = affordable_spacing(from, config);
   const int num_faces = static_cast<int>(from.num_triangles());
-  std::atomic<double> farthest = 0.0;  // squared; of all threads, and the largest of all samples in the end
+  std::atomic<double> farthest = 0.0;  // square of the largest distance so far, shared by all threads
   std::atomic<std::int64_t> samples = 0;
   tbb::parallel_for(tbb::blocked_range<int>(0, num_faces, kChunk), [&](const auto& chunk) {
     int near = 0;
@@ -76,8 +76,8 @@ OneSided farthest_sample(const TriangleMesh& from, const TriangleMesh& to, const
     const auto look = [&](const Vector3& point) {
       ++looked;
       double known = farthest.load(std::memory_order_relaxed);
-      // Most samples are nearer than another one: that is seen sooner than how near they are. A little nearer, so that
-      // rounding does not make the largest depend on the order of the samples.
+      // Most samples are nearer than a known one, and this test is faster than their distance. The factor is slightly
+      // below 1, so that rounding does not make the largest distance depend on the order of the samples.
       if (tree.within(point, kSurelyNearer * known, near)) return;
       const double squared = tree.squared_distance(point);
       while (squared > known && !farthest.compare_exchange_weak(known, squared, std::memory_order_relaxed)) {

@@ -21,7 +21,7 @@ const tacipc::StageSpec kDecimate{
                 .help = "who will see it (YAML): its window decides which side shows most",
                 .required = false}}};
 
-/// Messages of what is wrong with a mesh name its file.
+/// Adds the file's name to messages about its mesh.
 tacipc::DecimatedObject decimated(const std::filesystem::path& path, const tacipc::TriangleMesh& mesh,
                                   const tacipc::DecimateConfig& config) {
   try {

@@ -10,7 +10,7 @@
 namespace tacipc {
 namespace {
 
-/// Of what people press into a gel, m.
+/// Usual extent of pressed objects, m.
 constexpr double kUsualExtent = 0.02;
 
 void check_extent(const TriangleMesh& mesh, const DoctorConfig& config) {
@@ -58,12 +58,12 @@ TriangleMesh close_surface(TriangleMesh mesh, const DoctorConfig& config, Doctor
               .leave_larger = config.sheet_thickness_m.has_value()},
              report);
   if (config.sheet_thickness_m) thicken_open_parts(mesh, *config.sheet_thickness_m, report);
-  remove_degenerate_faces(mesh, report);  // a crack of no width is closed by faces of no area
+  remove_degenerate_faces(mesh, report);  // closes a crack of zero width by faces of zero area
   remove_flat_parts(mesh, report);
   return mesh;
 }
 
-/// The closed surface, or that of one side.
+/// Closed surface, or that of one side.
 TriangleMesh close_or_take_side(TriangleMesh mesh, const DoctorConfig& config, DoctorReport& report) {
   if (!config.height_field) return close_surface(std::move(mesh), config, report);
   try {
@@ -100,7 +100,7 @@ TriangleMesh treat_mesh(TriangleMesh mesh, const DoctorConfig& config, DoctorRep
   const Eigen::Index vertices = mesh.num_vertices();
   remove_unreferenced_vertices(mesh);
   report.unreferenced_vertices += vertices - mesh.num_vertices() - report.merged_vertices;
-  // What is left decides the scale: a speck far away may have hidden a wrong unit.
+  // The remaining parts decide the scale: a distant speck may have hidden a wrong unit.
   check_extent(mesh, config);
   log_repairs(report);
   if (report.self_intersections > 0) {

@@ -18,7 +18,7 @@ double scale_to_window(const TriangleMesh& mesh, const SensorWindow& window, con
   constexpr double kFilled = 0.9;
   const double window_m = kFilled * std::min(window.size_m[0], window.size_m[1]);
   double scale = window_m / largest_extent(mesh);
-  // Which side shows most depends on the size: first as large as fits whole, then as this side fits.
+  // The side of most relief depends on the size: first the whole object is scaled to fit, then this side.
   TriangleMesh scaled = mesh;
   scaled.positions *= scale;
   const SideView side = survey_sides(scaled, window, wanted).side();

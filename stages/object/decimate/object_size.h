@@ -1,4 +1,4 @@
-// How large an object is wanted, and which unit would make it so.
+// Relates the size of an object to a sensor's field of view, and suggests the unit of its file.
 #pragma once
 
 #include <string>
@@ -8,11 +8,14 @@
 
 namespace tacipc {
 
-/// The factor that makes a side of this mesh (that of most relief without `wanted`) fill nine tenths of the window.
+/// Factor by which a side of this mesh fills nine tenths of the field of view; without `wanted` the side of most
+/// relief.
 double scale_to_window(const TriangleMesh& mesh, const SensorWindow& window, const std::string& wanted);
 
-/// " (in cm it is 20 mm wide)", if these units would make it about as large as `wanted_m`, a third to three times; else
-/// nothing. `extent_m` is its largest extent, `unit` what its numbers were taken for.
+/// Hint such as " (in cm it is 20 mm wide)" for units with which the object is a third to three times `wanted_m`;
+/// otherwise empty.
+/// \param extent_m largest extent of the object
+/// \param unit assumed unit of its numbers
 std::string units_that_fit(double extent_m, const std::string& unit, double wanted_m);
 
 }  // namespace tacipc

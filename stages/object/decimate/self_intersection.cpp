@@ -18,9 +18,9 @@
 namespace tacipc {
 namespace {
 
-constexpr int kFacesPerChunk = 64;  // faces per chunk; results are joined in chunk order
+constexpr int kFacesPerChunk = 64;  // faces per chunk; results are joined in the order of chunks
 
-/// Tells how many chunks are done, in steps of a hundredth. Only the thread that made it speaks.
+/// Reports the number of finished chunks in steps of a hundredth. Only the thread that created it writes messages.
 class ChunkProgress {
  public:
   explicit ChunkProgress(int chunks) : chunks_(chunks) {}
@@ -39,7 +39,7 @@ class ChunkProgress {
   std::thread::id speaker_ = std::this_thread::get_id();
 };
 
-/// The lowest vertex at the place of each vertex.
+/// Lowest vertex at the position of each vertex.
 std::vector<int> lowest_at_place(const Positions& positions) {
   std::vector<int> order(positions.rows());
   std::iota(order.begin(), order.end(), 0);

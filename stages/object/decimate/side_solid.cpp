@@ -12,11 +12,12 @@
 namespace tacipc {
 namespace {
 
-constexpr double kLargestGrid = 600.0;    // points along the longer side
-constexpr double kProbes = 400.0;         // of the error, along the longer side
-constexpr double kLeastThickness = 0.05;  // of the back below the lowest point seen, of the longer side
+constexpr double kLargestGrid = 600.0;  // points along the longer side
+constexpr double kProbes = 400.0;       // probes of the error along the longer side
+constexpr double kLeastThickness =
+    0.05;  // thickness of the back below the lowest visible point, as a fraction of the longer side
 
-/// Triangles of the grid's points that have a height, counted as `point` numbers them.
+/// Triangles between the grid points that have a height, with the indices of `point`.
 Triangles faces_between(const HeightField& field, const std::vector<int>& point) {
   std::vector<std::array<int, 3>> faces;
   for (int j = 0; j + 1 < field.rows; ++j) {
@@ -37,7 +38,7 @@ Triangles faces_between(const HeightField& field, const std::vector<int>& point)
   return rows_of<Triangles>(faces);
 }
 
-/// The front, its mirror on the back, and walls between their outlines.
+/// Solid from the front, its mirror image on the back, and walls between their outlines.
 TriangleMesh with_back(const TriangleMesh& front, double back_z) {
   const auto n = static_cast<int>(front.num_vertices());
   TriangleMesh solid;
@@ -92,7 +93,7 @@ TriangleMesh solid_of_side(const TriangleMesh& mesh, const std::string& side, do
   if (front.num_triangles() == 0)
     throw DataError("nothing wider than {:.3g} mm is seen of the mesh from its side {}", 1e3 * spacing_m, side);
   TriangleMesh solid = with_back(front, std::min(low.z(), lowest - kLeastThickness * longer));
-  // Not the grid's own points, where it is exact.
+  // Probes avoid the grid points, where the solid is exact.
   constexpr double kBetween = 0.73;
   const SurfaceDistance distance =
       distance_from(solid, seen_points(seen, std::max(kBetween * spacing_m, longer / kProbes)));

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kGrid = 300.0;  // points along the longer side
 
-/// |∇h| dA summed over rows and columns before (i, j), heights cut off kPressDepth below the highest.
+/// Sums of |∇h| dA over rows and columns before (i, j); heights are cut off kPressDepth below the highest.
 class ReliefSums {
  public:
   explicit ReliefSums(const HeightField& field) : at_(Eigen::MatrixXd::Zero(field.columns + 1, field.rows + 1)) {
@@ -35,7 +35,7 @@ class ReliefSums {
     }
   }
 
-  /// Over columns first.x … last.x − 1 and rows alike, as a length of full steps.
+  /// Relief over columns first_i … last_i − 1 and rows first_j … last_j − 1, as a length of full steps.
   double relief(int first_i, int last_i, int first_j, int last_j) const {
     const double sum = at_(last_i, last_j) - at_(first_i, last_j) - at_(last_i, first_j) + at_(first_i, first_j);
     return std::max(0.0, sum) / SideSurvey::kPressDepth;
@@ -45,7 +45,7 @@ class ReliefSums {
   Eigen::MatrixXd at_;
 };
 
-/// Share of the outline's points that lie in the upper fifth of what a press reaches.
+/// Fraction of the outline's points that lie in the upper fifth of a press's depth.
 double rim_touching(const HeightField& field) {
   const double highest = *std::ranges::max_element(field.z);
   const auto there = [&](int i, int j) {
@@ -75,7 +75,7 @@ FloatImage height_image(const HeightField& field) {
 }
 
 SideView look_at(const TriangleMesh& mesh, const std::string& side, const std::array<double, 2>& window_m) {
-  // As it presses into the gel, seen from there.
+  // The object as it presses into the gel, seen from the gel.
   TriangleMesh seen = mesh;
   seen.positions = transformed(place(mesh.positions, {.face = side}, 0.0), mesh.positions);
   seen.positions.col(2) *= -1.0;
@@ -125,7 +125,7 @@ bool SideSurvey::wider_than_window() const {
 }
 
 bool SideSurvey::uniform() const {
-  constexpr double kFlat = 0.02;  // of the window's width
+  constexpr double kFlat = 0.02;  // fraction of the window's width
   return side().extent_m[0] > window_m[0] && side().extent_m[1] > window_m[1] && side().relief_m < kFlat * window_m[0];
 }
 
@@ -141,10 +141,10 @@ SideSurvey survey_sides(const TriangleMesh& mesh, const SensorWindow& window, co
   if (survey.given) return survey;
   const auto widest = std::ranges::max_element(
       survey.views, [](const SideView& a, const SideView& b) { return a.shown_m2 < b.shown_m2; });
-  constexpr double kEdge = 0.05;  // a side that shows less is an edge
+  constexpr double kEdge = 0.05;  // fraction of the area; a side that shows less is an edge
   if (survey.side().shown_m2 < kEdge * widest->shown_m2)
     survey.pressed = static_cast<std::size_t>(widest - survey.views.begin());
-  // Something that stands out of a side is meant to be pressed, rather than the base below or a socket in it.
+  // Something that stands out of a side is meant to press, rather than the base below it or a socket in it.
   constexpr double kStandsOut = 1e-3, kBroad = 0.2;
   const auto has_tip = [&](const SideView& view) {
     return view.rim_touching < 0.5 && view.relief_m > kStandsOut && view.shown_m2 > kBroad * widest->shown_m2;
@@ -166,7 +166,7 @@ ByteImage picture_of_sides(const SideSurvey& survey) {
   constexpr std::array<std::uint8_t, 3> kFrame{21, 112, 60}, kWindow{255, 255, 255};
   double longest = 0.0;
   for (const SideView& view : survey.views) longest = std::max({longest, view.extent_m[0], view.extent_m[1]});
-  const double scale = (kTile - 2 * kGap) / longest;  // pixels per metre, the same for all
+  const double scale = (kTile - 2 * kGap) / longest;  // pixels per metre, the same for all views
   ByteImage sheet(3 * kTile, 2 * kTile, 3, 243);
   for (std::size_t k = 0; k < survey.views.size(); ++k) {
     const SideView& view = survey.views[k];

@@ -1,4 +1,4 @@
-// Which side of an object has something to feel: relief in a sensor's window, side by side.
+// Surveys the six sides of an object: relief within a sensor's field of view ("window").
 #pragma once
 
 #include <array>
@@ -10,48 +10,50 @@
 
 namespace tacipc {
 
-/// Who looks at an object, and which side it is pressed with if none is better.
+/// Field of view of the sensor, and the side that presses if no other is better.
 struct SensorWindow {
   std::array<double, 2> size_m{};
   std::string usual = "-z";
 };
 
-/// What one side shows, along the axes of S once it presses (unturned).
+/// One side, along the axes of S once it presses (unturned).
 struct SideView {
   std::string side;
-  double relief_m = 0.0;             // of the best window
-  double centered_relief_m = 0.0;    // of the window in the middle of the bounding box
-  std::array<double, 2> place_m{};   // the best window's middle, from that of the bounding box
-  double shown_m2 = 0.0;             // area of the object as seen
-  double rim_touching = 0.0;         // share of its outline that touches first: 1 for a base, 0 for a tip on one
-  std::array<double, 2> extent_m{};  // of the bounding box
-  FloatImage height = {};            // m above what lies kPressDepth below the highest point; NaN: nothing there
+  double relief_m = 0.0;             // relief of the best window
+  double centered_relief_m = 0.0;    // relief of the window at the centre of the bounding box
+  std::array<double, 2> place_m{};   // centre of the best window, from the centre of the bounding box
+  double shown_m2 = 0.0;             // visible area of the object
+  double rim_touching = 0.0;         // fraction of the outline that touches first: 1 for a base, 0 for a tip on a base
+  std::array<double, 2> extent_m{};  // extent of the bounding box
+  FloatImage height =
+      {};  // height above the plane kPressDepth below the highest point, m; NaN where there is no object
 };
 
+/// Views of all sides, and the side that presses.
 struct SideSurvey {
   static constexpr double kPressDepth = 0.5e-3;
   std::array<double, 2> window_m{};
-  std::vector<SideView> views;  // in the order of face_names()
+  std::vector<SideView> views;  // views in the order of face_names()
   std::size_t pressed = 0;
-  bool given = false;  // the side was asked for
+  bool given = false;  // the side was requested
 
   const SideView& side() const { return views[pressed]; }
-  /// The object goes beyond the window, on both sides of an axis or one.
+  /// True if the object extends beyond the window along an axis, at one end or both.
   bool wider_than_window() const;
-  /// Nothing but a flat face fills the window.
+  /// True if a flat face fills the window.
   bool uniform() const;
 };
 
-/// Looks at all six sides. Relief of a window is the length of steps as high as a press is deep that would be as much,
+/// Surveys all six sides. The relief of a window is the length of steps of the height d that would give the same value,
 ///   R = (1/d) ∫ |∇ max(0, z − z_max + d)| dA,  d = kPressDepth,
-/// outlines against nothing left out: 0 on a flat face, a circle's length on a stamped disc. The place is where R is
-/// greatest, but the middle unless that is a tenth better. `pressed` is `wanted` if it names a side, else that of most
-/// relief, but the usual one unless that is a quarter better or shows twenty times its area. Sides that something
-/// stands out of (over 1 mm of relief, an outline that does not touch, a fifth of the greatest area) come before
-/// others.
+/// without the object's outer outline: 0 on a flat face, the circumference of a stamped disc. The best window is the
+/// one of largest R, but the central one unless the best is a tenth better. `pressed` is `wanted` if that names a side;
+/// otherwise the side of most relief, but the usual side unless the other is a quarter better or shows twenty times its
+/// area. Sides with a protrusion (over 1 mm of relief, an outline that does not touch, a fifth of the largest area)
+/// precede others.
 SideSurvey survey_sides(const TriangleMesh& mesh, const SensorWindow& window, const std::string& wanted);
 
-/// Six pictures side by side in two rows, the pressed side's framed, its window drawn: ±x above, y, z beside them.
+/// Picture of six views in two rows: ±x above, then y and z; the pressed side has a frame and its window.
 ByteImage picture_of_sides(const SideSurvey& survey);
 
 }  // namespace tacipc

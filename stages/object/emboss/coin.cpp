@@ -15,7 +15,7 @@ constexpr double kGrowth = 1.5;
 
 int count_at(double radius, double spacing) { return 6 * std::max(1, static_cast<int>(std::lround(radius / spacing))); }
 
-/// Where rings lie on a stretch of this length behind a ring with `spacing`: steps grow up to `widest` and are then
+/// Positions of rings on an interval of this length after a ring with `spacing`. Steps grow up to `widest` and are then
 /// scaled so that they end at the length. `spacing` becomes the last step.
 std::vector<double> growing_steps(double length, double widest, double& spacing) {
   std::vector<double> at;
@@ -30,7 +30,7 @@ std::vector<double> growing_steps(double length, double widest, double& spacing)
   return at;
 }
 
-/// Triangles between a ring of m vertices from index a and the next of n from index b.
+/// Triangles between a ring of m vertices from index a and the next one of n vertices from index b.
 void zip(std::vector<Eigen::Vector3i>& triangles, int a, int m, int b, int n) {
   for (int i = 0, j = 0; i < m || j < n;) {
     // Step on the ring whose next edge has its middle at the smaller angle: (i + ½)/m against (j + ½)/n.
@@ -85,7 +85,7 @@ double coin_spacing(const CoinShape& shape, int vertices) {
 
 TriangleMesh coin_mesh(const CoinShape& shape, double spacing_m, const Height& relief_m) {
   const std::vector<Ring> rings = coin_rings(shape, spacing_m);
-  std::vector<int> first;  // vertex of each ring
+  std::vector<int> first;  // first vertex of each ring
   int next = 1;
   for (const Ring& ring : rings) {
     first.push_back(next);

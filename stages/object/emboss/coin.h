@@ -1,4 +1,4 @@
-// The body that carries a relief: a short cylinder as a closed mesh of rings.
+// Body of a relief: a short cylinder as a closed mesh of rings.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace tacipc {
 struct CoinShape {
   double radius_m = 0.0;
   double thickness_m = 0.0;
-  double fillet_m = 0.0;  // rounding of the edge between face and side
+  double fillet_m = 0.0;  // radius of the rounded edge between face and side
 
   /// Radius of the flat part of the face.
   double face_radius_m() const { return radius_m - fillet_m; }
@@ -25,22 +25,22 @@ struct Ring {
   int count = 0;
 };
 
-/// The rings from the middle of the face outwards, down the side and back to the middle of the bottom; the two middle
-/// points themselves are not listed. Face and fillet: spacing at most h, and ring k of the face has 6k vertices at the
-/// radius k h, so that all triangles are nearly equilateral. Side and bottom, which touch nothing: spacing grows by
-/// half from ring to ring up to a twelfth of the radius.
+/// Rings from the centre of the face outwards, down the side and back to the centre of the bottom, without the two
+/// centre points. On face and fillet the spacing is at most h, and ring k of the face has 6k vertices at the radius k
+/// h, so that all triangles are nearly equilateral. On the side and the bottom, which touch nothing, the spacing grows
+/// by half from ring to ring, up to a twelfth of the radius.
 std::vector<Ring> coin_rings(const CoinShape& shape, double spacing_m);
 
-/// Vertices of the mesh over these rings, both middle points included.
+/// Number of mesh vertices for these rings, including both centre points.
 int coin_vertices(const std::vector<Ring>& rings);
 
-/// The widest spacing (to half a percent) whose mesh has at least `vertices`.
+/// Widest spacing (to half a percent) whose mesh has at least `vertices`.
 double coin_spacing(const CoinShape& shape, int vertices);
 
-/// Closed mesh, outward oriented: face lifted by `relief_m` (metres above the plain face; it must vanish from the
-/// radius of the flat part on). Neighbouring rings are joined like a zipper, the shorter diagonal first. Vertex 0 is
-/// the middle of the face, then ring by ring, the last is the middle of the bottom. Relief values are computed in
-/// parallel.
+/// Closed mesh, outward oriented, with the face lifted by `relief_m` (metres above the plain face; zero from the radius
+/// of the flat part on). Neighbouring rings are joined like a zipper, the shorter diagonal first. Vertex 0 is the
+/// centre of the face, then follow the rings; the last vertex is the centre of the bottom. Relief values are computed
+/// in parallel.
 TriangleMesh coin_mesh(const CoinShape& shape, double spacing_m, const Height& relief_m);
 
 }  // namespace tacipc

@@ -11,7 +11,7 @@
 namespace tacipc {
 namespace {
 
-/// The least difference between high and low that counts as a relief, as a fraction of its height.
+/// Least difference between high and low that counts as a relief, as a fraction of its height.
 constexpr double kLeastContrast = 0.01;
 
 }  // namespace
@@ -21,7 +21,7 @@ double wall_height(double signed_distance_m, double wall_m, double rounding_m) {
     if (t <= -wall_m / 2) return 0.0;
     return t >= wall_m / 2 ? t : (t + wall_m / 2) * (t + wall_m / 2) / (2 * wall_m);
   };
-  // Exact outside the wall, where differences of integrals would leave rounding.
+  // Exact values outside the wall, where differences of integrals would leave rounding errors.
   if (std::abs(signed_distance_m) >= wall_m / 2 + rounding_m) return signed_distance_m > 0.0 ? 1.0 : 0.0;
   const double mean =
       (integral(signed_distance_m + rounding_m) - integral(signed_distance_m - rounding_m)) / (2 * rounding_m);
@@ -36,7 +36,7 @@ Height read_picture_height(const PictureSource& source, const ReliefShape& relie
 
 namespace {
 
-/// The pattern alone.
+/// Relief of the pattern alone.
 Height pattern_relief(const EmbossConfig& config) {
   const double rim = config.free_radius_m();
   const auto wall = [shape = config.relief](double d) { return wall_height(d, shape.wall_m, shape.rounding_m); };
@@ -71,7 +71,7 @@ EmbossedCoin emboss(const EmbossConfig& config, const Height& relief) {
   const double height = config.relief.height_m;
   coin.mesh = coin_mesh(config.coin, coin.spacing_m, [&](const Vector2& p) { return height * relief(p); });
 
-  // The rings of the face come first; all stand for nearly equal areas.
+  // The rings of the face come first; all vertices represent nearly equal areas.
   const double inner = config.free_radius_m() - config.relief.wall_m / 2 - config.relief.rounding_m;
   double low = 1.0, high = 0.0;
   std::int64_t seen = 0, raised = 0;

@@ -1,4 +1,4 @@
-// A pattern becomes a coin with a relief.
+// Makes a coin with a relief from a pattern.
 #pragma once
 
 #include "common/image/image.h"
@@ -11,24 +11,25 @@ namespace tacipc {
 /// (P(d + r) − P(d − r)) / 2r. C¹, 0 for d ≤ −w/2 − r, 1 for d ≥ w/2 + r. \pre wall > 0, rounding > 0
 double wall_height(double signed_distance_m, double wall_m, double rounding_m);
 
-/// The picture of a pattern of that kind. \throw DataError if the file is not a readable image or of one grey
+/// Height of a picture pattern. \throw DataError if the file is not a readable image or has a single grey level
 Height read_picture_height(const PictureSource& source, const ReliefShape& relief);
 
 /// Relief over the face as a fraction of its height; 0 from `free_radius_m` + wall/2 + rounding on.
 /// \throw DataError as read_picture_height
 Height face_relief(const EmbossConfig& config);
 
+/// The coin and its measures.
 struct EmbossedCoin {
   TriangleMesh mesh;
-  double spacing_m = 0.0;        // of the vertices on the face
-  double relief_height_m = 0.0;  // highest point over the plain face
-  double raised_share = 0.0;     // of the face's area, higher than half the relief
+  double spacing_m = 0.0;        // spacing of the vertices on the face
+  double relief_height_m = 0.0;  // highest point above the plain face
+  double raised_share = 0.0;     // fraction of the face's area that is higher than half the relief
 };
 
-/// \throw DataError if the pattern leaves the face plain.
+/// Makes the coin. \throw DataError if the pattern leaves the face plain
 EmbossedCoin emboss(const EmbossConfig& config, const Height& relief);
 
-/// The relief seen from outside, x right, y up: grey 255 · fraction over the square around the coin.
+/// Picture of the relief seen from outside, x right, y up: grey level 255 · fraction, over the square around the coin.
 ByteImage relief_picture(const EmbossConfig& config, const Height& relief, int width_px);
 
 }  // namespace tacipc

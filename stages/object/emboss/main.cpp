@@ -11,7 +11,7 @@ const StageSpec kEmboss{.name = "emboss",
                         .inputs = {{.flag = "--config", .help = "coin, relief and pattern (YAML)"}}};
 
 constexpr int kPictureWidth = 1000;
-/// Narrower strokes than their own walls stay visibly lower than asked for.
+/// Strokes narrower than their own walls stay visibly below the requested height.
 constexpr double kFullHeightShare = 0.95;
 
 }  // namespace

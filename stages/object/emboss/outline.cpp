@@ -19,9 +19,9 @@ Vector2 on_circle(double radius, double angle) { return radius * Vector2(std::co
 /// u minus the nearest multiple of the pitch.
 double wrapped(double u, double pitch) { return u - pitch * std::round(u / pitch); }
 
-/// The random point of square (i, j), in units of the pitch.
+/// Random point of square (i, j), in units of the pitch.
 Vector2 cell_point(std::int64_t i, std::int64_t j, std::uint64_t seed) {
-  // 0.1 … 0.9 of the square: two points never coincide.
+  // Points lie at 0.1 … 0.9 of the square, so that two never coincide.
   const auto row = static_cast<std::uint64_t>(j), column = static_cast<std::uint64_t>(i);
   const auto inside = [&](std::uint64_t axis) { return 0.1 + 0.8 * random_uniform(seed, row, 2 * column + axis); };
   return {static_cast<double>(i) + inside(0), static_cast<double>(j) + inside(1)};
@@ -42,7 +42,7 @@ double polygon_distance(const Points2& corners, const Vector2& p) {
   for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
     const Vector2 &a = corners[j], &b = corners[i];
     nearest = std::min(nearest, segment_distance(p, a, b));
-    // A ray to the right crosses ab where it passes the height of p, lower end included, upper end not.
+    // A ray to the right crosses ab if it passes the height of p; the lower end counts, the upper end does not.
     if ((a.y() <= p.y()) != (b.y() <= p.y())) {
       const double x = a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
       if (x > p.x()) inside = !inside;
@@ -98,7 +98,7 @@ double bricks_distance(const Vector2& p, double length_m, double height_m, doubl
 }
 
 Vector2 nearest_hexagonal(const Vector2& p, double pitch_m) {
-  // The lattice is two rectangular ones, the second shifted by half a rectangle.
+  // The lattice consists of two rectangular ones, the second shifted by half a rectangle.
   const Vector2 side(pitch_m, sqrt3 * pitch_m);
   Vector2 best = Vector2::Zero();
   double least = std::numeric_limits<double>::infinity();
@@ -123,7 +123,7 @@ double hexagon_border_distance(const Vector2& p, double pitch_m) {
 double cell_border_distance(const Vector2& p, double pitch_m, std::uint64_t seed) {
   const Vector2 q = p / pitch_m;
   const auto i0 = static_cast<std::int64_t>(std::floor(q.x())), j0 = static_cast<std::int64_t>(std::floor(q.y()));
-  // The nearest point is at most two squares away, and so are the neighbours that bound its cell near p.
+  // The nearest point, and the neighbours that bound its cell near p, are at most two squares away.
   constexpr int kReachSquares = 2, kSide = 2 * kReachSquares + 1;
   std::array<Vector2, kSide * kSide> points;
   std::size_t nearest = 0;

@@ -10,7 +10,7 @@ namespace tacipc {
 using Vector2 = Eigen::Vector2d;
 using Points2 = std::vector<Vector2>;
 
-/// Signed distance to what stands up, in metres: positive inside, exact next to the outline.
+/// Signed distance to the raised region, m: positive inside, exact next to the outline.
 using Distance = std::function<double(const Vector2&)>;
 
 /// Distance from p to the segment ab (to the point a if both ends are the same).
@@ -28,17 +28,18 @@ Points2 star_polygon(int points, double outer_m, double inner_m);
 /// chords.
 Points2 gear_polygon(int teeth, double root_m, double tip_m, double tip_share);
 
-/// Bars of `width` at distance `pitch`, one of them through the origin, perpendicular to the u axis:
+/// Signed distance to bars of `width` at distance `pitch`, perpendicular to the u axis, one of them through the origin:
 /// w/2 − |u − nearest multiple of the pitch|. Concentric rings are bars over the radius.
 double bars_distance(double u, double pitch_m, double width_m);
-/// Squares of a chessboard, one centred at the origin standing up: distance to the nearest line of the board.
+/// Signed distance to the squares of a chessboard, a raised one centred at the origin: distance to the nearest line of
+/// the board.
 double checker_distance(const Vector2& p, double square_m);
-/// Bricks in rows, each row shifted by half a brick; `gap` is the joint.
+/// Signed distance to bricks in rows, each row shifted by half a brick; `gap` is the joint.
 double bricks_distance(const Vector2& p, double length_m, double height_m, double gap_m);
 
-/// Nearest point of the hexagonal lattice with this pitch, the origin being one and (pitch, 0) another.
+/// Nearest point of the hexagonal lattice with this pitch, which contains the origin and (pitch, 0).
 Vector2 nearest_hexagonal(const Vector2& p, double pitch_m);
-/// Distance from p to the border of its cell in that lattice (of the nearest lattice point's hexagon).
+/// Distance from p to the border of its cell in that lattice (hexagon of the nearest lattice point).
 double hexagon_border_distance(const Vector2& p, double pitch_m);
 /// Distance from p to the border of its Voronoi cell among one random point in each square of side `pitch`.
 double cell_border_distance(const Vector2& p, double pitch_m, std::uint64_t seed);

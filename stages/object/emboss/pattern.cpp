@@ -14,7 +14,7 @@
 namespace tacipc {
 namespace {
 
-/// A length that must stay below another one.
+/// Reads a length that must stay below another one.
 double length_below(ConfigReader& in, const std::string& key, double limit_m, const std::string& limit_name) {
   const double value = length(in, key);
   if (value < limit_m) return value;
@@ -107,7 +107,7 @@ Pattern read_dots(ConfigReader& in, double free_radius_m) {
   if (radius > free_radius_m) check_reach(in, "radius_mm", radius, free_radius_m);
   return Outline{[=](const Vector2& p) {
     const Vector2 centre = nearest_hexagonal(p, pitch);
-    // Only whole dots; around a missing one the face stays plain.
+    // Only whole dots are drawn; around a missing one the face stays plain.
     return centre.norm() + radius <= free_radius_m ? radius - (p - centre).norm() : radius - pitch / 2;
   }};
 }

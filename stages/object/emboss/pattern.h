@@ -1,4 +1,4 @@
-// The kinds of patterns, each with its keys.
+// Kinds of patterns, each with its keys.
 #pragma once
 
 #include <filesystem>
@@ -10,17 +10,17 @@
 
 namespace tacipc {
 
-/// What stands up by its outline; the relief puts walls on it.
+/// Pattern with an outline; the relief adds the walls.
 struct Outline {
   Distance distance;
 };
 
-/// What has a height everywhere.
+/// Pattern with a height everywhere.
 struct Texture {
   Height height;
 };
 
-/// A picture still to be read from its file.
+/// Picture that is still to be read from its file.
 struct PictureSource {
   std::filesystem::path path;
   double width_m = 0.0;
@@ -32,8 +32,8 @@ using Pattern = std::variant<Outline, Texture, PictureSource>;
 /// A length in metres from a key in millimetres.
 double length(ConfigReader& in, const std::string& key, const Range& range = Range::positive());
 
-/// Reads `pattern:`. `free_radius_m` is the radius of the circle that patterns may fill; one that must stay whole
-/// (text, polygon, star, gear) and reaches farther is a fault. A picture's path counts from the YAML's folder.
+/// Reads `pattern:`. `free_radius_m` is the radius of the circle that patterns may fill; it is an error if a pattern
+/// that must stay whole (text, polygon, star, gear) exceeds it. A picture's path is relative to the YAML's folder.
 Pattern read_pattern(ConfigReader& in, double free_radius_m);
 
 }  // namespace tacipc

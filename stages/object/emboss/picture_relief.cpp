@@ -21,7 +21,7 @@ std::vector<double> gaussian_weights(double sigma_px, int radius) {
   return weights;
 }
 
-/// One pass along x, result transposed: two passes blur the plane.
+/// One pass along x with transposed result: two passes blur the plane.
 Raster blurred_transposed(const Raster& in, const std::vector<double>& weights) {
   const int radius = static_cast<int>(weights.size() / 2);
   const int width = static_cast<int>(in.rows()), height = static_cast<int>(in.cols());
@@ -46,7 +46,7 @@ Height picture_height(const ByteImage& grey, const PictureRelief& relief, const 
   const double pixel_m = relief.width_m / grey.width;
   const double sigma_px = relief.wall_m / std::sqrt(2.0 * std::numbers::pi) / pixel_m;
   const int radius = static_cast<int>(std::ceil(4.0 * sigma_px));
-  const int border = radius + 1;  // of zeros around the picture, so that its edge is a wall too
+  const int border = radius + 1;  // border of zeros around the picture, so that its edge is also a wall
   Raster raster = Raster::Zero(grey.width + 2 * border, grey.height + 2 * border);
   for (int y = 0; y < grey.height; ++y) {
     for (int x = 0; x < grey.width; ++x) {

@@ -16,7 +16,7 @@ double smooth_step(double t) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-/// Height of a strand's crown over its crossings: 1 where it runs over the other family, 0 where under.
+/// Height of a strand's crown over its crossings: 1 if it runs over the other family, 0 if it runs under.
 double crown(double along, double across_index, double phase) {
   return 0.5 + 0.5 * std::cos(pi * (along - 0.5 - across_index + phase));
 }
@@ -57,7 +57,7 @@ double weave_height(const Vector2& p, double pitch_m, double fill) {
     const double t = 2.0 * across / fill;
     return std::max(0.0, 1.0 - t * t);
   };
-  // Where a strand passes under, its crown is still a third of the height above the floor.
+  // Where a strand passes under, its crown is at a third of the height above the floor.
   const auto strand = [&](double across, double over) { return section(across) * (1.0 + 2.0 * over) / 3.0; };
   const double horizontal = strand(q.y() - row - 0.5, crown(q.x(), row, 0.0));
   const double vertical = strand(q.x() - column - 0.5, crown(q.y(), column, 1.0));

@@ -18,12 +18,12 @@ double gradient_noise(const Vector2& p, std::uint64_t seed, std::uint64_t stream
 /// Stone: ½ + contrast/2 · Σ 2⁻ᵒ noise(2ᵒ p / size) / Σ 2⁻ᵒ over the octaves, held in [0, 1] by a smooth step.
 double stone_height(const Vector2& p, double size_m, int octaves, double contrast, std::uint64_t seed);
 
-/// Plain weave of two families of strands: at each crossing one runs over the other, in turn. A strand's section is a
-/// parabola over `fill` of the pitch.
+/// Plain weave of two families of strands: at each crossing one runs over the other, alternating. The section of a
+/// strand is a parabola over `fill` of the pitch.
 double weave_height(const Vector2& p, double pitch_m, double fill);
 
-/// Ridges of a fingertip: ½ + ½ cos(2π φ), φ the radius of an oval whorl over the pitch, the plane bent before by noise
-/// of size `bend_size` by up to `bend`.
+/// Ridges of a fingertip: ½ + ½ cos(2π φ), where φ is the radius of an oval whorl over the pitch. Before, noise of size
+/// `bend_size` bends the plane by up to `bend`.
 double ridges_height(const Vector2& p, double pitch_m, double bend_m, double bend_size_m, std::uint64_t seed);
 
 }  // namespace tacipc

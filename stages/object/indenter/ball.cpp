@@ -14,7 +14,7 @@ namespace {
 
 using Corners = std::array<int, 3>;
 
-/// The convex hull of (0, ±1, ±φ) and its cyclic turns: all triples of vertices two apart, turned outwards.
+/// Convex hull of (0, ±1, ±φ) and its cyclic permutations: all triples of vertices two apart, oriented outwards.
 void icosahedron(std::vector<Vector3>& vertices, std::vector<Corners>& faces) {
   const double phi = (1.0 + std::sqrt(5.0)) / 2.0;
   for (int axis = 0; axis < 3; ++axis)

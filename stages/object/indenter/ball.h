@@ -5,8 +5,8 @@
 
 namespace tacipc {
 
-/// Icosahedron whose triangles are split in four until no edge is longer than `edge_m`, vertices on the sphere about
-/// the origin: closed, outward. \throw DataError if that takes more than 8 splits
+/// Ball as an icosahedron whose triangles are split into four until no edge is longer than `edge_m`. Vertices lie on
+/// the sphere around the origin; the mesh is closed and outward. \throw DataError if that takes more than 8 splits
 TriangleMesh ball_mesh(double radius_m, double edge_m);
 
 }  // namespace tacipc

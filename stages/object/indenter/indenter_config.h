@@ -1,4 +1,4 @@
-// What indenter is to make: a ball, or a mesh with the edges its print has.
+// Configuration of indenter: a ball, or a mesh with the rounded edges of its print.
 #pragma once
 
 #include <optional>
@@ -8,13 +8,15 @@
 
 namespace tacipc {
 
+/// Mesh whose edges are rounded like those of its print.
 struct RoundedMesh {
-  std::string unit;  // of the file
+  std::string unit;  // unit of the file's numbers
   double edge_radius_m = 0.0;
-  double spacing_m = 0.0;  // of the height field
-  double relief_m = 0.0;   // how far below its highest point the object is kept
+  double spacing_m = 0.0;  // grid spacing of the height field
+  double relief_m = 0.0;   // depth below the highest point to which the object is kept
 };
 
+/// Exactly one of a ball and a mesh.
 struct IndenterConfig {
   std::optional<double> ball_radius_m;
   double ball_edge_m = 0.0;

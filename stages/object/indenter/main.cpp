@@ -18,7 +18,7 @@ const StageSpec kIndenter{.name = "indenter",
 
 TriangleMesh rounded(Stage& stage, const RoundedMesh& wanted) {
   const TriangleMesh mesh = read_triangle_mesh(stage.input("--mesh"), metres_per_unit(wanted.unit));
-  // The object's foot is often wider than its tip: what lies deeper than the relief must not widen the grid.
+  // The object's foot is often wider than its tip: parts deeper than the relief must not widen the grid.
   const double cut = mesh.positions.col(2).maxCoeff() - wanted.relief_m;
   TriangleMesh tip = mesh;
   tip.triangles.resize(0, 3);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNoSurface = HeightField::kNothing;
 
-/// A grid point of the disc and the ball's height over it, m.
+/// Grid point of the disc, and the ball's height above it, m.
 struct Offset {
   int u, v;
   double cap;
@@ -30,8 +30,8 @@ std::vector<Offset> ball_offsets(double radius, double spacing) {
   return offsets;
 }
 
-/// Extreme over the disc of `radius` about each point of z + sign · (ball's height there); sign −1 with the smallest
-/// erodes, +1 with the largest dilates.
+/// Extreme over the disc of `radius` around each point of z + sign · (ball's height there): sign −1 with the smallest
+/// value erodes, +1 with the largest value dilates.
 HeightField swept(const HeightField& field, double radius, bool dilate) {
   const std::vector<Offset> offsets = ball_offsets(radius, field.spacing);
   HeightField out = field;
@@ -69,7 +69,7 @@ HeightField rounded(const TriangleMesh& mesh, double radius_m, double spacing_m,
   if (radius_m == 0.0) return highest_points(mesh, spacing_m, margin_m);
   constexpr double kStepsPerRadius = 24.0;
   const int k = std::max(1, static_cast<int>(std::ceil(kStepsPerRadius * spacing_m / radius_m)));
-  // Whole coarse steps around the box, so that thinning keeps the margin.
+  // The box gets a margin of whole coarse steps, so that thinning keeps it.
   const HeightField fine = highest_points(mesh, spacing_m / k, margin_m + spacing_m);
   return thinned(opened(fine, radius_m), k);
 }
@@ -90,7 +90,7 @@ TriangleMesh solid(const HeightField& field, double relief_m) {
   for (int j = 0; j < field.rows; ++j) {
     for (int i = 0; i < field.columns; ++i) {
       const double x = field.x0 + i * field.spacing, y = field.y0 + j * field.spacing;
-      // Around the outside the walls start at the cut, so that they stand on the floor's outline.
+      // The outermost points of the walls lie at the cut, so that the walls stand on the floor's outline.
       const bool rim = i == 0 || j == 0 || i + 1 == field.columns || j + 1 == field.rows;
       mesh.positions.row(id(i, j)) << x, y, rim ? floor_z : std::max(field.at(i, j), floor_z);
       mesh.positions.row(n + id(i, j)) << x, y, floor_z - relief_m;

@@ -21,7 +21,7 @@ struct Soup {
   std::vector<std::array<std::size_t, 3>> faces;
 };
 
-/// Without faces that have no area: there is nothing to keep away from but their edges, which belong to others.
+/// Triangle soup without faces of zero area: only their edges could be touched, and these belong to other faces.
 Soup soup_of(const TriangleMesh& mesh) {
   Soup soup;
   soup.points.reserve(mesh.num_vertices());
@@ -63,7 +63,7 @@ TriangleMesh alpha_wrap(const TriangleMesh& mesh, double alpha_m, double offset_
   } catch (const CGAL::Failure_exception& failure) {
     throw DataError("CGAL cannot wrap the mesh ({})", failure.message());
   }
-  // CGAL warns of a surface that it cannot extract, and leaves it empty.
+  // CGAL warns about a surface that it cannot extract, and leaves it empty.
   if (surface.is_empty()) throw DataError("CGAL finds no closed surface around the mesh");
   return mesh_of(surface);
 }

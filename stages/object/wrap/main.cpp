@@ -15,7 +15,7 @@ const StageSpec kWrap{
     .inputs = {{.flag = "--mesh", .help = "surface of the object (STL, OBJ, OFF, PLY, glTF, 3MF)"},
                {.flag = "--object", .help = "unit and scale of that mesh, how finely to wrap it (YAML)"}}};
 
-/// Messages of what is wrong with a mesh name its file.
+/// Adds the file's name to messages about its mesh.
 WrappedObject wrapped(const std::filesystem::path& path, const TriangleMesh& mesh, const WrapConfig& config) {
   try {
     return wrap_object(mesh, config);
@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
     log_info("lengths are in {} ({})", file.unit, file.unit_from);
     const WrappedObject object = wrapped(stage.input("--mesh"), file.mesh, spec.wrap.value_or(WrapConfig{}));
     write_ply(stage.output("object.ply"), object.mesh);
-    // With it decimate takes the wrap as it would have taken the mesh.
+    // With this object file decimate reads the wrap as it would have read the mesh.
     write_file(stage.output("object.yaml"), spec_of_wrapped(spec).yaml());
     stage.summarize({{"unit", file.unit}, {"unit_from", file.unit_from}, {"scale", spec.scale}});
     stage.summarize(object.summary);

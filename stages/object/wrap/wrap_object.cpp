@@ -12,8 +12,8 @@ namespace tacipc {
 namespace {
 
 constexpr double kOffsetPerAlpha = 1.0 / 15.0;
-constexpr double kLeastOffsetPerAlpha = 1e-3;  // the nearer to the mesh, the finer the faces
-constexpr double kProbes = 200.0;              // of what is seen, along the diagonal
+constexpr double kLeastOffsetPerAlpha = 1e-3;  // a smaller offset gives finer faces
+constexpr double kProbes = 200.0;              // probes of the visible surface, along the diagonal
 
 double diagonal_of(const TriangleMesh& mesh) {
   return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).norm();
@@ -68,8 +68,8 @@ TriangleMesh faces_that_look_up(const TriangleMesh& mesh) {
   return up;
 }
 
-/// From what the six sides show of the mesh to the faces of the wrap that look the same way: of a thin wall the back
-/// may be nearer, but that is not what is pressed.
+/// Distance of the mesh visible from the six sides to the faces of the wrap that look the same way. The back of a thin
+/// wall may be nearer, but it does not press.
 SurfaceDistance from_seen_mesh(const TriangleMesh& mesh, const TriangleMesh& wrap, double spacing_m) {
   SurfaceDistance all;
   double points = 0.0;
@@ -94,7 +94,7 @@ Value::Map lines_of(const SurfaceDistance& distance) {
 WrappedObject wrap_object(const TriangleMesh& read, const WrapConfig& config) {
   if (read.num_triangles() == 0) throw DataError("the mesh has no faces");
   TriangleMesh mesh = read;
-  remove_unreferenced_vertices(mesh);  // however far away: they are not part of the surface
+  remove_unreferenced_vertices(mesh);  // even distant ones, which are not part of the surface
   const double diagonal_m = diagonal_of(mesh);
   const double alpha_m = alpha_for(diagonal_m, config);
   const double offset_m = offset_for(alpha_m, diagonal_m, config);

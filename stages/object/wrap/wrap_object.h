@@ -1,4 +1,4 @@
-// A mesh that no repair closes, as the surface wrapped around it, with the distance between the two.
+// Wraps a mesh that no repair closes, and measures the distance between both.
 #pragma once
 
 #include "common/base/value.h"
@@ -7,16 +7,18 @@
 
 namespace tacipc {
 
+/// Result of wrap.
 struct WrappedObject {
   TriangleMesh mesh;
-  Value::Map summary;  // for the record; lengths in mm
+  Value::Map summary;  // lines for the record; lengths in mm
 };
 
-/// Wraps and measures: how far the wrap's vertices and face centres lie from the mesh, and what the six sides show of
-/// the mesh from the wrap. \throw DataError if alpha is too fine or too coarse for the mesh, or as alpha_wrap.
+/// Wraps and measures: the distance of the wrap's vertices and face centres from the mesh, and the distance of the mesh
+/// visible from the six sides from the wrap.
+/// \throw DataError if alpha is too fine or too coarse for the mesh, or as alpha_wrap
 WrappedObject wrap_object(const TriangleMesh& mesh, const WrapConfig& config);
 
-/// The object file of what was made of a mesh with this one: metres, as large as wanted, nothing left to wrap.
+/// Object file of the wrap of a mesh with this object file: in metres, at the final size, without a wrap section.
 ObjectSpec spec_of_wrapped(ObjectSpec spec);
 
 }  // namespace tacipc

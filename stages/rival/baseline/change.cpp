@@ -73,7 +73,7 @@ FloatImage ChangeOfCodes::operator()(const Raster& indentation_m, const std::vec
 }
 
 FloatImage ChangeOfCodes::lambert(const Raster& indentation_m) const {
-  Raster depth = indentation_m;  // less deep into the gel is farther from the camera
+  Raster depth = indentation_m;  // depth relative to the camera: a deeper point in the gel is farther away
   for (double& value : depth.values) value = -value;
   const std::array<int, 3> flat = lambert_codes(config_.lights, {0.0, 0.0, 1.0});
   FloatImage change(depth.width, depth.height, 3);
@@ -106,7 +106,7 @@ FloatImage ChangeOfCodes::metallic(const Raster& indentation_m, const std::vecto
   for (std::size_t i = 0; i < view.point.size(); ++i) {
     const bool rigid = !object_normal.empty() && object_normal[i] != Vector3::Zero();
     const Vector3 normal = rigid ? object_normal[i] : Vector3(-view.normal[i]);
-    // A flat front beside a rigid object stays as it is, whatever the map's slope at the edge.
+    // A flat front next to a rigid object does not change, regardless of the map's slope at the edge.
     const bool flat = !object_normal.empty() && !rigid;
     const auto codes = flat ? empty_[i] : metallic_codes(view.point[i], normal);
     for (std::size_t c = 0; c < 3; ++c)

@@ -1,4 +1,4 @@
-// Light of simulators that add a change of codes to the photograph without contact.
+// Light of simulators that add a change of grey levels to the photograph without contact.
 #pragma once
 
 #include <filesystem>
@@ -19,27 +19,30 @@
 
 namespace tacipc {
 
-/// What `calibrate` found, or a file says: nothing for lights that the configuration lists.
+/// Light from `calibrate` or from a file; empty if the configuration lists the lights.
 using RivalLight = std::variant<std::monostate, MetallicLamps, SlopeTable, LightNetwork, LightField>;
-/// \param camera for tables in pixels of its image \throw DataError, ConfigError if it is no light of this model
+/// Reads a light.
+/// \param camera camera of the image, for tables in its pixels
+/// \throw DataError, ConfigError if the file is not a light of this model
 RivalLight read_light(const std::filesystem::path& file, ChangeConfig::Model model, const Camera& camera);
 
-/// Makes changes of codes for one sensor; what does not depend on the membrane is computed once.
+/// Computes changes of grey levels for one sensor. Everything independent of the membrane is computed once.
 class ChangeOfCodes {
  public:
-  /// `shadows`: of a table's contacts, measured in pixels of `shadow_pixel_m`. \pre a light of the model's kind
+  /// \param shadows shadows of a table's contacts, measured in pixels of `shadow_pixel_m`
+  /// \pre the light is of the model's kind
   ChangeOfCodes(const ChangeConfig& config, const RivalLight& light, const Sensor& sensor,
                 std::optional<ShadowTable> shadows = std::nullopt, double shadow_pixel_m = 0.0);
 
-  /// `object_normal`: of a rigid object where it is in the gel, zero elsewhere, or none.
-  /// - lambert_sum: Σ k_d max(N · L, 0) colour over normals (−dz/dx, −dz/dy, 1) / |…| of depth / metres_per_pixel, cut
-  /// to
-  ///   whole codes of 0 … 255 after each light, less the same of a flat gel; then g(n, σ).
-  /// - metallic_roughness: factor × (code rendered − code without object), then the window.
-  /// - table, network: of the slopes of the height map straight from above; the network's answer less that for a flat
-  /// gel.
-  /// - light_field: that of light_field.h, our own, with the blur that belongs to it.
-  /// Shadows of the pixels `held`, if there are any, come next, final_blur_px last of all.
+  /// Change of grey levels for a membrane:
+  /// - lambert_sum: Σ k_d max(N · L, 0) colour over normals (−dz/dx, −dz/dy, 1) / |…| of depth / metres_per_pixel,
+  /// truncated to whole levels of 0 … 255 after each light, minus the same of a flat gel; then g(n, σ).
+  /// - metallic_roughness: factor × (rendered level − level without object), then the window.
+  /// - table, network: function of the slopes of the height map from straight above; for the network minus its
+  /// prediction for a flat gel.
+  /// - light_field: the change of light_field.h, with the blur that belongs to it.
+  /// Then the shadows of the pixels `held` follow, if there are any, and final_blur_px comes last.
+  /// \param object_normal normals of a rigid object where it is in the gel, zero elsewhere; or empty
   FloatImage operator()(const Raster& indentation_m, const std::vector<Vector3>& object_normal,
                         const std::vector<bool>& held = {}) const;
 
@@ -57,11 +60,11 @@ class ChangeOfCodes {
   std::optional<ShadowTable> shadows_;
   double shadow_pixel_m_;
   double pixel_m_;
-  std::vector<std::array<double, 3>> empty_;  // metallic: codes without object
-  std::vector<Eigen::MatrixXf> flat_;         // network: answers for a flat gel, row by row
+  std::vector<std::array<double, 3>> empty_;  // metallic: grey levels without object
+  std::vector<Eigen::MatrixXf> flat_;         // network: predictions for a flat gel, row by row
 };
 
-/// Adds N(0, σ) to every code, by seed, pixel and channel alone, and cuts it to a whole one of 0 … 255.
+/// Adds noise N(0, σ) to every grey level, which depends only on seed, pixel and channel, and truncates it to 0 … 255.
 void add_noise(ByteImage& image, double sigma_codes, std::uint64_t seed);
 
 }  // namespace tacipc

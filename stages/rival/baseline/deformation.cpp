@@ -31,7 +31,7 @@ Raster difference_of_gaussians(const Raster& h, const DeformationConfig& config)
   return a;
 }
 
-/// M of the header, `times` times.
+/// Applies M of the header `times` times.
 Raster raised(const Raster& h, const std::vector<double>& profile, int times) {
   Raster f = h;
   for (int i = 0; i < times; ++i) {
@@ -69,7 +69,7 @@ Raster protrusion(const Raster& depth_m, const Raster& front_depth_m) {
   Raster h(depth_m.width, depth_m.height);
   for (std::size_t i = 0; i < h.values.size(); ++i) {
     const double in = front_depth_m.values[i] - depth_m.values[i];
-    h.values[i] = in > 0.0 ? in : 0.0;  // NaN compares false
+    h.values[i] = in > 0.0 ? in : 0.0;  // NaN compares as false
   }
   return h;
 }

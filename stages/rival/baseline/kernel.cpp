@@ -22,7 +22,7 @@ std::vector<double> folded_gaussian_profile(int size, double sigma) {
   const int radius = static_cast<int>(kTruncate * sigma + 0.5);
   double sum = 0.0;
   for (int i = -radius; i <= radius; ++i) sum += std::exp(-0.5 * i * i / (sigma * sigma));
-  // Each tap carries the impulse to one place; places outside the window fold back into it.
+  // Each tap moves the impulse to one position; positions outside the window fold back into it.
   std::vector<double> profile(size, 0.0);
   for (int to = 0; to < size; ++to)
     for (int i = -radius; i <= radius; ++i)
@@ -56,7 +56,7 @@ Raster correlate(const Raster& image, const Raster& kernel, Border border, doubl
     cv::filter2D(source, target, CV_64F, view(kernel));
     return out;
   }
-  // filter2D pads with nothing but zeros: pad, filter, cut out.
+  // filter2D can only pad with zeros: pad, filter, cut out.
   const int left = kernel.width / 2, top = kernel.height / 2;
   cv::Mat padded, filtered;
   cv::copyMakeBorder(source, padded, top, kernel.height - 1 - top, left, kernel.width - 1 - left, cv::BORDER_CONSTANT,

@@ -1,4 +1,4 @@
-// The convolution kernels of the depth-based simulators, and convolution as they do it.
+// Convolution kernels of the depth-based simulators, and convolution in their form.
 #pragma once
 
 #include "common/image/image.h"
@@ -13,41 +13,41 @@ namespace tacipc {
 std::vector<double> folded_gaussian_profile(int size, double sigma);
 Raster folded_gaussian(int size, double sigma);
 
-/// w(i, j) = 201 / (200 + exp (√(i² + j²) / f)), |i|, |j| ≤ 6 f to the nearest whole number, divided by its sum: at f =
-/// 1 the older 13 × 13 kernel with which Tacchi compares [Tacchi2023], else the same on pixels of another size. \pre f
-/// > 0
+/// Kernel w(i, j) = 201 / (200 + exp (√(i² + j²) / f)), |i|, |j| ≤ 6 f to the nearest whole number, divided by its sum.
+/// f = 1 gives the older 13 × 13 kernel with which Tacchi compares [Tacchi2023]; other f give it on pixels of another
+/// size.
+/// \pre f > 0
 Raster exponential_kernel(double factor = 1.0);
 
+/// Values outside the image: mirrored about the outermost pixel centres, or constant.
 enum class Border { reflect_101, constant };
 
-/// Correlation Σ k(i, j) f(x + i − w/2, y + j − h/2) with the anchor at index size/2; outside the image f is mirrored
-/// about the outermost pixel centres, or is `outside`. \pre the mirrored image is wider and higher than the kernel's
-/// half
+/// Correlation Σ k(i, j) f(x + i − w/2, y + j − h/2) with the anchor at index size/2. Outside the image f is mirrored
+/// about the outermost pixel centres, or is `outside`. \pre a mirrored image is wider and higher than half the kernel
 Raster correlate(const Raster& image, const Raster& kernel, Border border = Border::reflect_101, double outside = 0.0);
 
-/// exp(−i²/2σ²), |i| ≤ half to the nearest whole number, divided by its sum. \pre sigma > 0
+/// Profile exp(−i²/2σ²), |i| ≤ half to the nearest whole number, divided by its sum. \pre sigma > 0
 std::vector<double> cut_gaussian_profile(double half, double sigma);
 
-/// OpenCV's Gaussian window of n pixels without a σ: for n = 3, 5 and 7 a table ([1 4 6 4 1]/16 for 5), else
-/// σ = 0.3 ((n − 1)/2 − 1) + 0.8, cut at ±(n − 1)/2. On pixels 1/factor times as large, a Gaussian whose σ (the table's
-/// standard deviation) and half width keep their length. \pre n odd, at least 3; factor > 0
+/// Profile of OpenCV's Gaussian window of n pixels without a σ. n = 3, 5 and 7 use a table ([1 4 6 4 1]/16 for 5);
+/// other n use σ = 0.3 ((n − 1)/2 − 1) + 0.8, cut at ±(n − 1)/2. On pixels 1/factor times as large, it is a Gaussian
+/// whose σ (the table's standard deviation) and half width keep their length. \pre n odd, at least 3; factor > 0
 std::vector<double> window_profile(int size_px, double factor);
 
-/// correlate with profile(x) profile(y), mirrored about the outermost pixel centres: as a separable filter.
+/// Correlation with profile(x) profile(y) as a separable filter, mirrored about the outermost pixel centres.
 Raster correlate_separable(const Raster& image, const std::vector<double>& profile);
 
-/// Height into the gel over pixels of one size: what a pixel rises by along columns and rows, by central differences;
-/// pixels of the border have the slopes of their neighbour inside, as Taxim and FOTS have it. \pre 3 x 3 pixels at
-/// least
+/// Slopes of a height into the gel along columns and rows, by central differences. Border pixels have the slopes of
+/// their inner neighbour, as in Taxim and FOTS. \pre at least 3 × 3 pixels
 struct Slopes {
   Raster x, y;
 };
 Slopes slopes_of(const Raster& height_m, double pixel_m);
 
-/// correlate_separable of every channel.
+/// Applies correlate_separable to every channel.
 FloatImage correlate_channels(const FloatImage& image, const std::vector<double>& profile);
 
-/// OpenCV's own threads would not heed --threads: from here on it has none.
+/// Turns off OpenCV's own threads, which would ignore --threads.
 void keep_to_one_thread();
 
 }  // namespace tacipc

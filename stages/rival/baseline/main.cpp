@@ -52,7 +52,7 @@ void check_flags(const Stage& stage) {
   if (!mesh && stage.optional_input("--places")) throw UsageError("--places: moves an object, which --depth has not");
 }
 
-/// What the configuration wants beside it, and nothing else. \throw UsageError
+/// Checks that the flags match the configuration. \throw UsageError
 void check_light(const Stage& stage, const BaselineConfig& config) {
   const bool photograph = stage.optional_input("--background").has_value();
   if (photograph != config.shades())
@@ -82,7 +82,7 @@ BaselineSimulator make_simulator(Stage& stage) {
   return out;
 }
 
-/// The poses, or those of the images that --places names, moved to the place given there or found on the photograph.
+/// Poses, or those of the images that --places names, moved to the position given there or found on the photograph.
 std::vector<Matrix4> wanted_poses(Stage& stage, const BaselineSimulator& simulator) {
   std::vector<Matrix4> poses = read_poses(*stage.optional_input("--pose"));
   if (!stage.optional_input("--places")) return poses;
@@ -154,7 +154,7 @@ int main(int argc, char** argv) {
       }
     }
     stage.summarize({{"frames", membrane_s.size()}, {"max_indentation_mm", 1e3 * deepest_m}});
-    // Processor seconds of a frame, files not counted.
+    // Processor seconds of a frame, without files.
     if (simulator.has_object()) stage.cost({{"object_s", upper_median(object_s)}});
     stage.cost({{"membrane_s", upper_median(membrane_s)}, {"light_s", upper_median(light_s)}});
   });

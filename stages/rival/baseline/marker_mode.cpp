@@ -18,7 +18,7 @@
 namespace tacipc {
 namespace {
 
-/// Depth of an object at points of the front, straight from above.
+/// Depth of an object at points of the front, seen straight from above.
 class DepthAt {
  public:
   DepthAt(const Sensor& sensor, TriangleMesh object, std::string name)
@@ -27,7 +27,7 @@ class DepthAt {
   void place(const Matrix4& pose) {
     depth_m_ = protrusion(camera_.see(object_, Positions(), pose, name_).depth, camera_.front());
   }
-  /// Bilinear between pixels; 0 outside the image.
+  /// Depth by bilinear interpolation between pixels; 0 outside the image.
   double operator()(const Eigen::Vector2d& point_m) const {
     const Camera& c = sensor_.camera;
     const double x = (point_m.x() / c.window_width_m + 0.5) * c.width_px - 0.5;
@@ -49,7 +49,7 @@ class DepthAt {
 
 using MarkerField = std::function<Eigen::Vector2d(std::size_t)>;
 
-/// Where FOTS' own markers are, m; pixels count from the image's corner.
+/// Positions of FOTS's own markers, m; pixels count from the image's corner.
 std::vector<Eigen::Vector2d> own_markers(const FotsMotion& model, const Camera& camera) {
   std::vector<Eigen::Vector2d> places;
   for (int row = 0; row < model.rows; ++row)
@@ -112,7 +112,7 @@ void move_markers(Stage& stage) {
   DepthAt depth(sensor, read_triangle_mesh(*mesh, 1.0), mesh->string());
   const std::vector<Eigen::Vector2d> own = own_markers(config.fots, sensor.camera);
   const auto rest_of = [&](std::size_t m) -> Eigen::Vector2d { return rest.row(m).head<2>().transpose(); };
-  // How markers are moved by an object that was pressed as in a frame, for each motion since.
+  // Marker displacement by an object pressed as in a frame, as a function of its motion since.
   const auto pressed = [&](const Matrix4& pose) -> std::function<MarkerField(const ObjectMotion&)> {
     depth.place(pose);
     if (superposed) {
@@ -145,7 +145,7 @@ void move_markers(Stage& stage) {
     so_far.press_end = end;
     MovedPress run = so_far;
     for (std::size_t f = press_end + 1; f < poses.size(); ++f) {
-      Matrix4 pose = poses[f];  // the motion that followed, at this depth
+      Matrix4 pose = poses[f];  // the subsequent motion, at this depth
       pose(2, 3) += poses[end](2, 3) - poses[press_end](2, 3);
       run.add(pose, phases[f], rest, moved_by(motion_since(poses[end], pose)));
     }

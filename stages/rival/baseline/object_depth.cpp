@@ -11,13 +11,13 @@ namespace tacipc {
 namespace {
 
 struct RayHit {
-  double depth = 0.0;                   // along the camera's axis
-  std::array<double, 3> barycentric{};  // of the corners, sum 1
+  double depth = 0.0;                   // depth along the camera's axis
+  std::array<double, 3> barycentric{};  // barycentric coordinates, sum 1
 };
 
-/// Where the ray from the origin meets triangle (a, b, c). The signed volumes of the ray with the three edges have one
-/// sign inside; an edge's volume is the same number but for its sign in both its triangles, so nothing falls between
-/// two, and a ray through an edge meets both.
+/// Intersection of the ray from the origin with triangle (a, b, c). The signed volumes of the ray with the three edges
+/// have one sign inside. An edge's volume has the same magnitude and opposite sign in its two triangles, so no ray
+/// passes between them, and a ray through an edge hits both.
 std::optional<RayHit> ray_hit(const Vector3& ray, const Vector3& a, const Vector3& b, const Vector3& c) {
   const double u = ray.dot(b.cross(c)), v = ray.dot(c.cross(a)), w = ray.dot(a.cross(b));
   const bool inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
@@ -53,7 +53,7 @@ SeenObject ObjectCamera::see(const TriangleMesh& object, const Positions& vertex
   const Vector3 shift = gel_from_object.topRightCorner<3, 1>();
   std::vector<Vector3> placed;
   double pressed = 0.0;
-  std::vector<Eigen::Vector2d> pixel;  // NaN: no image point shows it
+  std::vector<Eigen::Vector2d> pixel;  // NaN: no image point shows the vertex
   for (Eigen::Index i = 0; i < object.num_vertices(); ++i) {
     const Vector3 p = turn * object.positions.row(i).transpose() + shift;
     if (!(p.z() > nearest_z_m_)) throw DataError("{}: the object reaches the camera", name);
@@ -65,8 +65,8 @@ SeenObject ObjectCamera::see(const TriangleMesh& object, const Positions& vertex
   SeenObject seen{.depth = Raster(camera_.width_px, camera_.height_px, std::numeric_limits<double>::infinity()),
                   .pressed_m = pressed};
   if (vertex_normals.rows() > 0) seen.normal.assign(seen.depth.values.size(), Vector3::Zero());
-  // One pixel more on each side than the exact box: rounding, and edges that bend a little, must not cut a triangle
-  // short.
+  // The box is one pixel larger on each side than the exact one, because rounding and slightly bent edges must not cut
+  // off a part of a triangle.
   const auto first = [](double low) { return static_cast<int>(std::floor(std::max(low - 1.5, 0.0))); };
   const auto last = [](double high, int count) {
     return static_cast<int>(std::ceil(std::min(high + 0.5, count - 1.0)));
@@ -103,7 +103,7 @@ SeenObject ObjectCamera::see(const TriangleMesh& object, const Positions& vertex
 Raster ObjectCamera::front() const {
   Raster depth(camera_.width_px, camera_.height_px, -camera_.position_m.z());
   if (!gel_.dome_radius_m) return depth;
-  // Sphere about (0, 0, −R) through the origin: the farther meeting with the ray is its side towards the object.
+  // Sphere around (0, 0, −R) through the origin: the farther intersection with the ray is on the object's side.
   const double radius = *gel_.dome_radius_m;
   for (int y = 0; y < depth.height; ++y) {
     for (int x = 0; x < depth.width; ++x) {

@@ -1,4 +1,4 @@
-// The object as the sensor's camera sees it without a gel.
+// Views the object through the sensor's camera without a gel.
 #pragma once
 
 #include <string>
@@ -11,30 +11,32 @@
 
 namespace tacipc {
 
-/// Along what an object is seen: the camera's rays, bent at the sensor's layers as everywhere else; the same unbent, as
-/// simulators have it that know no window; or straight down the z axis, where a method has no camera.
+/// Lines of sight to the object: the camera's rays, refracted at the sensor's layers as everywhere else; the same rays
+/// unrefracted, as in simulators without a window; or parallel to the z axis, for methods without a camera.
 enum class ObjectRays { refracted, straight, parallel };
 
-/// Depth along the camera's axis (m), NaN where nothing is, and unit normals out of the object, interpolated between
-/// its vertices; none if they were not asked for.
+/// Depth along the camera's axis (m), NaN where no object is visible, and outward unit normals interpolated between
+/// vertices; no normals if they were not requested.
 struct SeenObject {
   Raster depth;
   std::vector<Vector3> normal = {};
-  double pressed_m = 0.0;  // of a mesh: how far its deepest vertex is in the gel (z < 0), in view or not
+  double pressed_m = 0.0;  // depth of a mesh's deepest vertex in the gel (z < 0), visible or not
 };
 
-/// One ray through each pixel's centre, made once for many poses.
+/// Camera with one ray through each pixel's centre, made once for many poses.
 class ObjectCamera {
  public:
-  /// \throw DataError if a pixel looks away from the front
+  /// \throw DataError if a ray misses the front
   ObjectCamera(const Sensor& sensor, ObjectRays rays);
 
-  /// The first surface on each ray of the mesh placed by `gel_from_object`. A ray through an edge or a corner meets the
-  /// triangles that share it. `vertex_normals`: of the mesh in its own frame, or none. \throw DataError, naming `name`,
-  /// if the object reaches as far as the camera, or as the layers behind the gel where rays bend.
+  /// First surface on each ray of the mesh placed by `gel_from_object`. A ray through an edge or a corner hits the
+  /// triangles that share it.
+  /// \param vertex_normals normals of the mesh in its own frame, or empty
+  /// \param name name of the object in messages
+  /// \throw DataError if the object reaches the camera or, if rays are refracted, the layers behind the gel
   SeenObject see(const TriangleMesh& object, const Positions& vertex_normals, const Matrix4& gel_from_object,
                  const std::string& name) const;
-  /// Depth (m) of the undeformed front on the same rays; NaN where a dome ends before.
+  /// Depth (m) of the undeformed front on the same rays; NaN where a ray misses a dome.
   Raster front() const;
 
  private:

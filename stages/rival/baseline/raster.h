@@ -7,7 +7,7 @@
 
 namespace tacipc {
 
-/// Row-major numbers, row 0 on top.
+/// Row-major numbers, row 0 at the top.
 struct Raster {
   int width = 0;
   int height = 0;
@@ -19,7 +19,7 @@ struct Raster {
   double at(int x, int y) const { return const_cast<Raster*>(this)->at(x, y); }
 };
 
-/// The same as an image of one channel, in single precision.
+/// Copy as an image of one channel, in single precision.
 inline FloatImage to_image(const Raster& raster) {
   FloatImage image(raster.width, raster.height, 1);
   for (std::size_t i = 0; i < raster.values.size(); ++i) image.pixels[i] = static_cast<float>(raster.values[i]);

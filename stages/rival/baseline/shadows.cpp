@@ -12,14 +12,14 @@ namespace tacipc {
 namespace {
 
 constexpr double kStepPx = 1.25;
-constexpr std::array<double, 4> kFan{-0.1, -0.05, 0.0, 0.05};  // rad
+constexpr std::array<double, 4> kFan{-0.1, -0.05, 0.0, 0.05};  // angles, rad
 
 struct Ray {
   int x, y;
   double direction;
 };
 
-/// Along one ray of the fan. \pre list of one channel
+/// Darkens along one ray of the fan. \pre `list` belongs to one channel
 void darken(FloatImage& change, std::size_t channel, const std::vector<double>& list, const Raster& height,
             const Ray& ray, double step_px) {
   const double dx = step_px * std::cos(ray.direction), dy = step_px * std::sin(ray.direction);
@@ -36,7 +36,7 @@ void darken(FloatImage& change, std::size_t channel, const std::vector<double>& 
 }  // namespace
 
 std::vector<bool> ring_around(const std::vector<bool>& contact, int width, int height, double pixel_factor) {
-  constexpr int kDilatedPx = 4;  // twice by two
+  constexpr int kDilatedPx = 4;  // two dilations by two pixels
   const int reach = std::max(1, static_cast<int>(std::lround(kDilatedPx * pixel_factor)));
   const auto at = [&](int x, int y) { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + x; };
   std::vector<bool> rows(contact.size(), false), ring(contact.size(), false);

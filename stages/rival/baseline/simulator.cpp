@@ -14,7 +14,8 @@
 namespace tacipc {
 namespace {
 
-/// An object's depth counts from this sensor's camera: above another's front, all of the image would be pressed.
+/// Checks the front: an object's depth counts from this sensor's camera. Above another sensor's front, the whole image
+/// would be pressed.
 void check_front(double front_depth_m, const Raster& own_front) {
   constexpr double kFrontToleranceM = 1e-5;
   for (const double depth_m : own_front.values)

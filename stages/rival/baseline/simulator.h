@@ -1,4 +1,4 @@
-// A simulator that knows the object's depth alone: everything that its frames have in common.
+// Simulator that uses only the object's depth, with everything that its frames share.
 #pragma once
 
 #include <filesystem>
@@ -14,29 +14,33 @@
 
 namespace tacipc {
 
+/// Maps and image of one frame.
 struct BaselineFrame {
   FloatImage indentation;            // m, > 0 into the gel, without texture
   FloatImage depth;                  // m along the camera's axis, with texture
-  std::optional<ByteImage> tactile;  // where the configuration shades
-  double membrane_s = 0.0;           // processor time of membrane and light
+  std::optional<ByteImage> tactile;  // present if the configuration shades
+  double membrane_s = 0.0;           // processor time of the membrane and of the light
   double light_s = 0.0;
 };
 
+/// Simulates the frames of one object in one sensor.
 class BaselineSimulator {
  public:
-  /// `light`: the file of a model that has its light there; `shadows`: of a pyramid under a table. Kernels are scaled
-  /// to the sensor's images. \pre background, light and shadows as the configuration wants them. \throw DataError,
-  /// ConfigError of the light
+  /// Scales kernels to the sensor's images.
+  /// \param light file of the light, for models that read one
+  /// \param shadows shadows of a pyramid, for the table model
+  /// \pre background, light and shadows are given as the configuration requires
+  /// \throw DataError, ConfigError from reading the light
   BaselineSimulator(const BaselineConfig& config, const Sensor& sensor, std::optional<ByteImage> background,
                     const std::optional<std::filesystem::path>& light,
                     const std::optional<std::filesystem::path>& shadows = std::nullopt);
 
-  /// The mesh (m) that `seen` places. \throw UsageError if its depth would count from another sensor's front
+  /// Sets the mesh (m) that `seen` places. \throw UsageError if its depth would refer to the front of another sensor
   void take_object(const std::filesystem::path& mesh);
   bool has_object() const { return object_.has_value(); }
 
   SeenObject seen(Matrix4 pose) const;
-  /// \pre of the size of the sensor's images
+  /// \pre the object's images have the size of the sensor's images
   BaselineFrame frame(SeenObject object_seen) const;
 
   const BaselineConfig& config() const { return config_; }
@@ -44,18 +48,18 @@ class BaselineSimulator {
   const std::string& name() const { return name_; }
 
  private:
-  BaselineConfig config_;  // for this camera
+  BaselineConfig config_;  // configuration scaled to this camera
   Sensor sensor_;
   ObjectCamera camera_;
   Raster front_;
   std::optional<ByteImage> background_;
   std::optional<ChangeOfCodes> change_;
   std::optional<TriangleMesh> object_;
-  Positions normals_;  // of its vertices, where the light wants them
-  std::string name_;   // of its file
+  Positions normals_;  // vertex normals, if the light needs them
+  std::string name_;   // name of the object's file
 };
 
-/// Depth (m) of a float EXR as render writes it: channel Z.
+/// Depth (m) from channel Z of a float EXR, as render writes it.
 Raster read_depth(const std::filesystem::path& path);
 
 /// Processor time of this process, s.

@@ -12,9 +12,9 @@
 namespace tacipc {
 namespace {
 
-constexpr std::array<const char*, 3> kOfChannel{"grad_b", "grad_g", "grad_r"};  // of red, green, blue
+constexpr std::array<const char*, 3> kOfChannel{"grad_b", "grad_g", "grad_r"};  // arrays for red, green, blue
 
-/// Weights of x², y², x y, x, y, 1 with X = a x + b and Y = c y + d, of those of X and Y.
+/// Weights of x², y², x y, x, y, 1 from those of X and Y, with X = a x + b and Y = c y + d.
 std::array<double, SlopeTable::kTerms> of_unit_square(const double* w, int width, int height) {
   const double a = 0.5 * width, b = 0.5 * (width - 1), c = 0.5 * height, d = 0.5 * (height - 1);
   return {w[0] * a * a,

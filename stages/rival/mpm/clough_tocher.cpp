@@ -8,7 +8,7 @@
 namespace tacipc {
 namespace {
 
-/// Every point's neighbours along edges, ascending.
+/// Neighbours of every point along edges, ascending.
 std::vector<std::vector<int>> neighbors_of_points(Eigen::Index num_points, const Triangles& triangles) {
   std::vector<std::vector<int>> neighbors(num_points);
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
@@ -25,9 +25,9 @@ std::vector<std::vector<int>> neighbors_of_points(Eigen::Index num_points, const
   return neighbors;
 }
 
-/// The triangle on the other side of each edge, 3 t + k for the edge opposite to corner k; −1 where there is none.
+/// Triangle across each edge; entry 3 t + k belongs to the edge opposite to corner k; −1 if there is none.
 std::vector<Eigen::Index> triangles_across(const Triangles& triangles) {
-  std::map<std::pair<int, int>, Eigen::Index> triangle_of;  // by edge, in the triangle's sense
+  std::map<std::pair<int, int>, Eigen::Index> triangle_of;  // key: edge in the triangle's orientation
   for (Eigen::Index t = 0; t < triangles.rows(); ++t)
     for (int k = 0; k < 3; ++k) triangle_of[{triangles(t, (k + 1) % 3), triangles(t, (k + 2) % 3)}] = t;
   std::vector<Eigen::Index> across(3 * triangles.rows(), -1);
@@ -51,8 +51,8 @@ Points2 least_bending_gradients(const Points2& points, const Eigen::VectorXd& va
     double largest = 0.0;
     for (Eigen::Index p = 0; p < points.rows(); ++p) {
       if (neighbors[p].empty()) continue;
-      // With e along an edge, Δ the step in value and s₂ = g₂ · e at its far end, ∫ w″² = 4 (s₁² + s₁ s₂ + s₂² − 3 Δ
-      // (s₁ + s₂) + 3 Δ²) for s₁ = g · e. Its derivative by g vanishes where Σ 2 e eᵀ / L³ g = Σ (3 Δ − s₂) e / L³.
+      // With e along an edge, Δ the difference in value, s₂ = g₂ · e at the far end and s₁ = g · e, ∫ w″² = 4 (s₁² + s₁
+      // s₂ + s₂² − 3 Δ (s₁ + s₂) + 3 Δ²). Its derivative by g vanishes if Σ 2 e eᵀ / L³ g = Σ (3 Δ − s₂) e / L³.
       Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
       Eigen::Vector2d right = Eigen::Vector2d::Zero();
       for (const int other : neighbors[p]) {
@@ -81,7 +81,7 @@ CloughTocher::CloughTocher(const Points2& points, const Eigen::VectorXd& values,
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     Part* const parts = &parts_[3 * t];
     const Eigen::Vector2d center = centroid(t);
-    // A third of the edge from a corner the control value is that of the corner's tangent plane.
+    // At a third of the edge from a corner the control value is that of the corner's tangent plane.
     const auto towards = [&](int from, const Eigen::Vector2d& to) {
       const int vertex = triangles(t, from);
       return values[vertex] + gradients.row(vertex).dot(to - corner(t, from)) / 3.0;
@@ -95,7 +95,7 @@ CloughTocher::CloughTocher(const Points2& points, const Eigen::VectorXd& values,
       part.ijj = towards(j, corner(t, i));
       part.iic = towards(i, center);
       part.jjc = towards(j, center);
-      // The derivative along one direction is made linear along the edge; both triangles of an edge take the line
+      // The derivative along one direction is made linear along the edge. Both triangles of an edge use the line
       // through their centroids (at the rim: from the edge's middle to the centroid), so that the gradient does not
       // jump. The direction is d_i V_i + d_j V_j + d_c V_c, sum 0; V_k = 3 V_c − V_i − V_j.
       double d_i = -0.5, d_j = -0.5, d_c = 1.0;
@@ -105,11 +105,12 @@ CloughTocher::CloughTocher(const Points2& points, const Eigen::VectorXd& values,
         d_j = at[j] - at[k];
         d_c = 3.0 * at[k] - 1.0;
       }
-      // Its quadratic along the edge has the coefficients q_ii, q_ij, q_jj; it is linear where 2 q_ij = q_ii + q_jj.
+      // The derivative's quadratic along the edge has the coefficients q_ii, q_ij, q_jj; it is linear if 2 q_ij = q_ii
+      // + q_jj.
       const double ends = d_i * (part.iii + part.ijj) + d_j * (part.iij + part.jjj) + d_c * (part.iic + part.jjc);
       part.ijc = (0.5 * ends - d_i * part.iij - d_j * part.ijj) / d_c;
     }
-    // Around the centroid: every control value lies in the plane of its neighbours in the two parts it belongs to.
+    // Around the centroid, every control value lies in the plane of its neighbours in its two parts.
     double by_corner[3];
     for (int k = 0; k < 3; ++k) {
       const int i = (k + 1) % 3, j = (k + 2) % 3;

@@ -6,8 +6,8 @@
 
 namespace tacipc {
 
-/// R = U Vᵀ of F = U Σ Vᵀ with rotations U and V, so that an inverted F has one negative singular value. \throw
-/// nothing; defined for every finite F.
+/// Rotation R = U Vᵀ of F = U Σ Vᵀ, where U and V are rotations, so that an inverted F has one negative singular value.
+/// Defined for every finite F. \throw nothing
 Matrix3 nearest_rotation(const Matrix3& F);
 
 /// Cofactors of a 3 × 3 matrix, row-major, and its determinant: F⁻ᵀ = cof F / det F.
@@ -24,14 +24,14 @@ TACIPC_INLINE Lanes cofactors(const Lanes* f, Lanes* cof) {
   return f[0] * cof[0] + f[1] * cof[1] + f[2] * cof[2];
 }
 
-/// Below this determinant the iteration is left to the singular value decomposition.
+/// Least determinant for the iteration; smaller ones use the singular value decomposition.
 constexpr float kSmallestDeterminant = 1e-3f;
 
-/// R of sixteen F with det F ≥ kSmallestDeterminant (the identity in other lanes), by Newton's iteration
-/// R ← ½ (R + R⁻ᵀ), which halves the sum of every singular value and its inverse.   [Higham 1986]
+/// Rotations R of sixteen F with det F ≥ kSmallestDeterminant (the identity in other lanes), by Newton's iteration R ←
+/// ½ (R + R⁻ᵀ), which averages every singular value and its inverse.   [Higham 1986]
 TACIPC_INLINE void rotations(const Lanes* F, const Lanes& determinant, Lanes* R) {
   constexpr int kMaxIterations = 20;
-  // A step of length δ leaves an error of δ²/2: below this nothing of a float is left to gain.
+  // A step of length δ leaves an error of δ²/2, which is below float precision here.
   constexpr float kSmallStepSquared = 2e-7f;
   for (int i = 0; i < 9; ++i) R[i] = determinant > kSmallestDeterminant ? F[i] : all_lanes(i % 4 == 0 ? 1.0f : 0.0f);
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
@@ -47,7 +47,7 @@ TACIPC_INLINE void rotations(const Lanes* F, const Lanes& determinant, Lanes* R)
   }
 }
 
-/// τ of sixteen particles.
+/// Kirchhoff stresses τ of sixteen particles.
 TACIPC_INLINE void kirchhoff_stresses(const Lanes* F, float mu, float lambda, Lanes* tau) {
   Lanes cof[9], R[9];
   const Lanes J = cofactors(F, cof);

@@ -7,16 +7,16 @@
 namespace tacipc {
 namespace {
 
-/// Rounding of a spacing that divides a length only in decimal.
+/// Tolerance for a spacing that divides a length only in decimal numbers.
 constexpr double kRounding = 1e-9;
 
-/// Places along one axis for a length: on its ends and between, or in the middles of its intervals.
+/// Number of positions along an axis of this length: at its ends and between, or in the middles of its intervals.
 int places(double length_m, const LatticeConfig& config) {
   const int intervals = static_cast<int>(std::floor(length_m / config.spacing_m * (1.0 + kRounding)));
   return config.on_faces ? intervals + 1 : intervals;
 }
 
-/// > 0 if d lies inside the circle through a, b, c, which go round counter-clockwise.
+/// Positive if d lies inside the circle through a, b, c. \pre a, b, c are counter-clockwise
 double in_circle(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
                  const Eigen::Vector2d& d) {
   Matrix3 rows;
@@ -86,7 +86,7 @@ Triangles triangulate(const GelLattice& lattice, const Positions& positions) {
   std::vector<std::array<int, 3>> all;
   for (int i = 0; i + 1 < lattice.sides[0]; ++i) {
     for (int j = 0; j + 1 < lattice.sides[1]; ++j) {
-      // Counter-clockwise seen from above.
+      // Corners counter-clockwise, seen from above.
       const std::array<int, 4> corner{lattice.at(i, j), lattice.at(i + 1, j), lattice.at(i + 1, j + 1),
                                       lattice.at(i, j + 1)};
       int missing = 0, without = 0;

@@ -11,12 +11,12 @@
 namespace tacipc {
 namespace {
 
-/// How far outside a triangle, in barycentric coordinates, a pixel on its edge may seem to lie by rounding.
+/// Tolerance, in barycentric coordinates, for a pixel on an edge that rounding puts outside the triangle.
 constexpr double kBarycentricSlack = 1e-9;
 
-constexpr int kHalvings = 24;  // of half a pixel's distance along a ray: below 1e-8 of it
+constexpr int kHalvings = 24;  // bisections of half a pixel's distance along a ray: below 1e-8 of it
 
-/// The surface between the pixels of its map.
+/// Surface interpolated between the pixels of its map.
 class Surface {
  public:
   Surface(const FloatImage& map, const Camera& camera, PixelPlaces places)
@@ -82,11 +82,12 @@ FloatImage seen_along_rays(const FloatImage& from_above, const Sensor& sensor, P
       if (!ray || !(ray->direction.z() > 0.0))
         throw DataError("pixel ({}, {}) of the camera does not look at the front face", x, y);
       const Vector3 along = ray->direction / ray->direction.z();
-      const auto below = [&](double depth) {  // whether the point of the ray that deep is still inside the gel
+      const auto below = [&](double depth) {  // true if the point of the ray at that depth is still inside the gel
         const Vector3 point = ray->origin + (-depth - ray->origin.z()) * along;
         return depth > surface.indentation(point.x(), point.y());
       };
-      // From the deepest point upwards, in steps of at most half a pixel sideways, then between the last two places.
+      // Search from the deepest point upwards, in steps of at most half a pixel sideways, then bisect between the last
+      // two positions.
       const double range = deepest - highest, sideways = range * along.head<2>().norm();
       const int steps = std::max(1, static_cast<int>(std::ceil(2.0 * sideways / surface.pixel_m())));
       double inside = deepest, outside = deepest;

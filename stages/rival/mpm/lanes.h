@@ -1,16 +1,16 @@
-// Sixteen floats at a time: particles side by side, or the nodes above each other that a particle reaches.
+// Vectors of sixteen floats: one per particle, or the four numbers of four nodes above each other.
 #pragma once
 
 #include "common/base/simd.h"
 
 namespace tacipc {
 
-/// A number of sixteen particles.
+/// One number of each of sixteen particles.
 using Lanes = float __attribute__((vector_size(64), aligned(64)));
 using IntLanes = int __attribute__((vector_size(64), aligned(64)));
 constexpr int kParticleLanes = 16;
 
-/// Four nodes in memory, which lie at any multiple of four floats.
+/// Four nodes in memory, at any multiple of four floats.
 using FourNodes = float __attribute__((vector_size(64), aligned(16), may_alias));
 /// A quarter of sixteen lanes in memory.
 using Quarter = float __attribute__((vector_size(16), aligned(16), may_alias));
@@ -25,13 +25,14 @@ TACIPC_INLINE float largest_of(const Lanes& a) {
   return top;
 }
 
-/// The four numbers of q above each other, once per node. (Doubled twice: compilers take a wider step through memory.)
+/// Repeats the four numbers of q for each of four nodes. It doubles twice, because compilers otherwise go through
+/// memory.
 TACIPC_INLINE Lanes on_each_node(const FloatQuad& q) {
   const auto two = __builtin_shufflevector(q, q, 0, 1, 2, 3, 4, 5, 6, 7);
   return __builtin_shufflevector(two, two, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
 }
 
-/// Number n of q on all four places of node n.
+/// Repeats number n of q in all four positions of node n.
 TACIPC_INLINE Lanes one_per_node(const FloatQuad& q) {
   const Lanes all = on_each_node(q);
   return __builtin_shufflevector(all, all, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
@@ -44,6 +45,7 @@ TACIPC_INLINE FloatQuad sum_of_nodes(const Lanes& a) {
   return (n0 + n1) + (n2 + n3);
 }
 
+/// Transposes the 4 × 4 matrix with the rows a, b, c, d.
 TACIPC_INLINE void transpose4(FloatQuad& a, FloatQuad& b, FloatQuad& c, FloatQuad& d) {
   const FloatQuad ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5),
                   ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
@@ -67,7 +69,7 @@ TACIPC_INLINE void quads_of_lanes(const Lanes& r0, const Lanes& r1, const Lanes&
   }
 }
 
-/// The inverse: r0[l], r1[l], r2[l] from quads[l]; the fourth number is dropped.
+/// Inverse of quads_of_lanes: r0[l], r1[l], r2[l] from quads[l]; the fourth number is dropped.
 TACIPC_INLINE void lanes_of_quads(const FloatQuad* quads, Lanes& r0, Lanes& r1, Lanes& r2) {
   Lanes* rows[3] = {&r0, &r1, &r2};
   for (int t = 0; t < 4; ++t) {

@@ -22,7 +22,8 @@ const StageSpec kMpm{
 
 double wall_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-/// `of` tells how much of the whole work this run is, `before` how much is done.
+/// Runs a motion with progress messages. `of` is the fraction of the whole work in this run, `before` the fraction
+/// already done.
 MpmRun run_with_progress(const MpmScene& scene, double speed_factor, double before, double of) {
   return run_motion(scene, speed_factor, [&](int frame, int count, int steps, double depth_m) {
     show_progress(before + of * (frame - 1.0) / count,
@@ -32,7 +33,7 @@ MpmRun run_with_progress(const MpmScene& scene, double speed_factor, double befo
   });
 }
 
-/// Moves again at half speed and says what that changes. \throw VerdictError if it is too much
+/// Repeats the motion at half speed and reports the change. \throw VerdictError if it is too large
 SpeedEffect try_half_speed(const Sensor& sensor, const MpmScene& scene, const std::vector<Positions>& markers) {
   log_info("again at half speed");
   const MpmRun slower = run_with_progress(scene, 0.5, 1.0 / 3.0, 2.0 / 3.0);

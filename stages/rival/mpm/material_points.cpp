@@ -14,12 +14,12 @@
 namespace tacipc {
 namespace {
 
-/// Nothing that the step is short enough for goes further in one.
+/// Largest move per step, in cells, for a step that is short enough.
 constexpr double kLargestMove = 0.5;
-/// Half a cell less than what tiles allow for, as cells are told by rounded numbers.
+/// Half a cell below the limit of the tiles, because cells are computed from rounded numbers.
 constexpr double kDriftBeforeSorting = kDrift - 0.5;
 
-/// Calls work(tile) for every tile, on tiles of one colour at a time, so that no two at once touch the same node.
+/// Calls work(tile) for every tile, one colour of tiles at a time, so that concurrent tiles share no node.
 template <typename Work>
 void for_each_tile_by_color(const Slab& slab, const Work& work) {
   for (int color = 0; color < 4; ++color) {

@@ -13,47 +13,48 @@ namespace tacipc {
 /// Parameters of the scheme, SI units, frame S.
 struct MpmSetup {
   double grid_spacing_m = 0.0;
-  Vector3 grid_origin_m = Vector3::Zero();  // where a node lies
+  Vector3 grid_origin_m = Vector3::Zero();  // position of a grid node
   double step_s = 0.0;
   double mu_pa = 0.0;
   double lambda_pa = 0.0;
   double density_kg_m3 = 0.0;
   double particle_volume_m3 = 0.0;
-  int num_fixed = 0;                                  // particles of the lowest ids, which never move
-  std::optional<double> held_below_m = std::nullopt;  // nodes at or below this height never move
-  double damping_per_s = 0.0;                         // v ← v (1 − Δt · this) on the grid
+  int num_fixed = 0;                                  // number of particles, from id 0, that never move
+  std::optional<double> held_below_m = std::nullopt;  // height, m, at or below which grid nodes never move
+  double damping_per_s = 0.0;                         // factor in v ← v (1 − Δt · damping) on the grid
   double object_mass_ratio = 1.0;                     // mass of a point of the object over that of a particle
 
-  /// √((λ + 2 μ) / ρ), the speed of pressure waves.
+  /// Speed of pressure waves √((λ + 2 μ) / ρ), m/s.
   double wave_speed_m_s() const;
   double particle_mass_kg() const { return density_kg_m3 * particle_volume_m3; }
 };
 
+/// State of the simulation.
 class MaterialPoints {
  public:
   /// Particles at `rest_m`, at rest; row i has id i. \pre at least one
   MaterialPoints(const Positions& rest_m, const MpmSetup& setup);
 
-  /// Points of the object in its own frame, m, where the first step begins. They move as a rigid body and carry it on
-  /// the grid: no slip, no stress.
+  /// Places the object's points (own frame, m) where the first step begins. They move as a rigid body and move the grid
+  /// with them: no slip, no stress.
   void place_object(const Positions& points_m, const Matrix4& gel_from_object);
 
-  /// One step, in which the object goes to `gel_from_object`. \throw SolverError if particles move half a cell in it,
-  /// or are no longer finite.
+  /// Computes one step, in which the object moves to `gel_from_object`.
+  /// \throw SolverError if a particle moves half a cell in it, or a particle is no longer finite
   void step(const Matrix4& gel_from_object);
-  /// One step with the object where it is.
+  /// Computes one step with the object at rest.
   void step() { step(gel_from_object_); }
 
-  /// Shifts of particles first … first + count − 1 since rest, m.
+  /// Displacements of particles first … first + count − 1 since rest, m.
   Positions shifts_m(int first, int count) const;
-  /// How far the lowest of the particles from `first` on has gone down, m; at least 0.
+  /// Largest downward displacement of the particles from `first` on, m; at least 0.
   double deepest_m(int first) const;
   const MpmSetup& setup() const { return setup_; }
   const std::vector<ParticlePack>& packs() const { return sorted_.packs; }
-  /// Goes on from another state of all particles, in any order.
+  /// Continues from another state of all particles, in any order.
   void set_packs(std::vector<ParticlePack> packs);
 
-  /// Σ m v of the gel, kg m/s; Σ ½ m v², J.
+  /// Momentum Σ m v of the gel, kg m/s, and kinetic energy Σ ½ m v², J.
   Vector3 momentum() const;
   double kinetic_energy_j() const;
 
@@ -65,10 +66,11 @@ class MaterialPoints {
   double largest_speed_m_s() const { return largest_speed_ * metres_per_cell() / setup_.step_s; }
 
  private:
-  /// Where the object's points are in a pose, in cells of the whole grid.
+  /// Positions of the object's points in a pose, in cells of the whole grid.
   void object_points(const Matrix4& gel_from_object, std::vector<std::array<double, 3>>& points) const;
   void sort();
-  /// Points of the object of this step, after sorting where anything has drifted too far. How far they go, cells.
+  /// Moves the object's points by this step, after sorting if anything has drifted too far. \return largest
+  /// displacement, cells
   double move_object(const Matrix4& gel_from_object);
   double metres_per_cell() const { return setup_.grid_spacing_m; }
   template <typename Visit>
@@ -79,16 +81,16 @@ class MaterialPoints {
   int num_particles_ = 0;
   int num_steps_ = 0;
   int num_sorts_ = 0;
-  double drift_ = 0.0;          // cells anything may have moved since it was sorted
+  double drift_ = 0.0;          // cells that anything may have moved since the last sort
   double largest_speed_ = 0.0;  // cells per step
   SortedParticles sorted_;
   Matrix4 gel_from_object_ = Matrix4::Identity();
-  Positions object_m_ = Positions(0, 3);           // in the object's frame
+  Positions object_m_ = Positions(0, 3);           // object points in the object's frame
   std::vector<std::array<double, 3>> object_now_;  // cells
   std::vector<std::array<double, 3>> object_next_;
-  std::vector<int> near_points_;       // of the object, tile by tile
-  std::vector<int> first_near_point_;  // of each tile, and the end
-  std::vector<MovingPoint> moving_;    // as near_points_
+  std::vector<int> near_points_;       // object points near the gel, tile by tile
+  std::vector<int> first_near_point_;  // index of each tile's first near point, and the end
+  std::vector<MovingPoint> moving_;    // moving points in the order of near_points_
 };
 
 }  // namespace tacipc

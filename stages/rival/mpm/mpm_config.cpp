@@ -19,7 +19,7 @@ std::array<int, 3> read_counts(ConfigReader& in) {
   return counts;
 }
 
-/// What the front may lack of a frame's depth; the published programs have three.
+/// Tolerance of the front's depth in a frame; the published programs use three values.
 double read_frame_within_m(ConfigReader& in) {
   static const std::map<std::string, double> kWithin{
       {"beyond", 0.0}, {"within_1um", 1e-6}, {"within_10um", 1e-5}, {"within_100um", 1e-4}};

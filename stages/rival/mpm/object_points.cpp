@@ -39,7 +39,7 @@ Positions sample_surface(const TriangleMesh& mesh, int count, std::uint64_t seed
       before += here;
       here = Corners(mesh, ++triangle).area();
     }
-    // Evenly over a triangle: the square root makes strips towards the first corner as wide as they are short.
+    // Uniform over a triangle: the square root compensates the decreasing width of strips towards the first corner.
     const double u = std::sqrt(random_uniform(seed, kStream, counter + 1)),
                  v = random_uniform(seed, kStream, counter + 2);
     const Corners corners(mesh, triangle);

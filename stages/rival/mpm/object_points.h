@@ -10,9 +10,10 @@ namespace tacipc {
 /// Area of a mesh, m².
 double surface_area(const TriangleMesh& mesh);
 
-/// `count` points spread over the surface by area: one in each of `count` pieces of equal area, that lie one after the
-/// other in the order of the triangles; where in its piece is random. The same mesh, count and seed give the same
-/// points. \throw DataError if the mesh has no area
+/// Spreads `count` points over the surface by area: one in each of `count` pieces of equal area, which follow each
+/// other in the order of the triangles. The position in a piece is random. The same mesh, count and seed give the same
+/// points.
+/// \throw DataError if the mesh has no area
 Positions sample_surface(const TriangleMesh& mesh, int count, std::uint64_t seed);
 
 }  // namespace tacipc

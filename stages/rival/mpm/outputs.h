@@ -1,4 +1,4 @@
-// What a run of material points leaves behind.
+// Writes the results of a run of material points.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,10 @@
 
 namespace tacipc {
 
-/// The markers of every frame, #M × 3 each, m.
+/// Markers of every frame, #M × 3 each, m.
 std::vector<Positions> markers_of_frames(const Sensor& sensor, const MpmScene& scene, const MpmRun& run);
 
-/// Arrays, height maps and the summary of the record.
+/// Writes arrays, height maps and the summary of the record.
 void write_outputs(Stage& stage, const Sensor& sensor, const MpmScene& scene, const MpmRun& run,
                    const std::vector<Positions>& markers, const std::optional<SpeedEffect>& effect);
 

@@ -11,7 +11,7 @@
 namespace tacipc {
 namespace {
 
-/// Largest displacement of any point of the object between two poses. The distance is convex, so a vertex has it.
+/// Largest displacement of any point of the object between two poses. The distance is convex, so it occurs at a vertex.
 double travel(const Positions& vertices, const Matrix4& from, const Matrix4& to) {
   return (transformed(to, vertices) - transformed(from, vertices)).rowwise().norm().maxCoeff();
 }
@@ -73,7 +73,7 @@ class Motion {
       observe_(static_cast<int>(out_.frames.size()), num_frames_, points_.num_steps(), depth_m);
   }
 
-  /// Straight down until a look, at least one, finds the gel's front that deep, as the frame's criterion has it.
+  /// Moves straight down until a check (at least one) finds the gel's front at that depth, by the frame's criterion.
   void press_until(double depth_m) {
     const double down_m = scene_.config.object.press_speed_m_s * speed_factor_ * step_s();
     double reached_m = 0.0;
@@ -91,7 +91,7 @@ class Motion {
     } while (reached_m < depth_m - scene_.config.frame_within_m);
   }
 
-  /// Along the phase's path to its frame `index`, evenly.
+  /// Moves along the phase's path to its frame `index`, in even steps.
   void follow(const Phase& phase, const PhaseStart& start, int index) {
     // A path's goals are counted in the phase's own time steps; their duration is not used.
     const auto goal = [&](double frames) {

@@ -12,8 +12,8 @@ namespace {
 
 using Cell = std::array<int, 3>;
 
-/// How far beyond the particles' cells points of the object are of interest: they share nodes within two cells, and
-/// both may drift.
+/// Distance beyond the particles' cells within which object points matter: they share nodes within two cells, and both
+/// may drift.
 constexpr int kReachCells = 2 + 2 * kDrift;
 
 struct Slot {
@@ -37,15 +37,15 @@ std::vector<Slot> slots_of(const std::vector<ParticlePack>& packs) {
   return slots;
 }
 
-/// The slab around the cells low … high of the particles.
+/// Slab around the particles' cells low … high.
 Slab slab_around(const Cell& low, const Cell& high, double held_below) {
   Slab slab;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    // Nothing comes from below: the object stands above the gel.
+    // No points come from below, because the object is above the gel.
     const int margin_below = kDrift + (axis == 2 ? 0 : kReachCells), margin_above = kDrift + kReachCells;
     slab.origin[axis] = low[axis] - margin_below;
     const int cells = high[axis] - low[axis] + 1 + margin_below + margin_above;
-    // Along z one node more, as columns of three are added to as four.
+    // Along z there is one more node, because columns of three nodes are updated as four.
     slab.nodes[axis] = axis == 2 ? (cells + 3 + 3) / 4 * 4 : (cells + kTile - 1) / kTile * kTile + 2;
     if (axis < 2) slab.tiles[axis] = (slab.nodes[axis] - 2) / kTile;
   }

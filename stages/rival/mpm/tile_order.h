@@ -1,4 +1,4 @@
-// Particles in tiles: which belong to which, in an order that depends on nothing but where they are.
+// Sorts particles into tiles, in an order that depends only on their positions.
 #pragma once
 
 #include <vector>
@@ -14,14 +14,15 @@ struct TilePacks {
   int count = 0;
 };
 
+/// Particles in the order of tiles, and their slab.
 struct SortedParticles {
-  Slab slab;  // large enough for everything to drift kDrift cells, and for points of the object that reach the gel
-  std::vector<ParticlePack> packs;  // tile by tile, in each along z, x, y of their cells
+  Slab slab;  // large enough for a drift of kDrift cells, and for points of the object that reach the gel
+  std::vector<ParticlePack> packs;  // packs tile by tile, in each tile along z, x, y of their cells
   std::vector<TilePacks> tiles;
 };
 
-/// Sorts particles by tile and cell; those of one cell keep their order. Nodes at or below the height `held_below` (in
-/// cells of the whole grid; −∞ for none) are held.
+/// Sorts particles by tile and cell; particles of one cell keep their order.
+/// \param held_below height in cells of the whole grid at or below which nodes do not move; −∞: all nodes move
 SortedParticles sort_particles(const std::vector<ParticlePack>& packs, double held_below);
 
 /// Tile of a point of the object (in cells of the whole grid), or −1 if it touches no node that a particle can touch

@@ -7,14 +7,14 @@
 namespace tacipc {
 namespace {
 
-/// Which nodes sixteen particles reach, and with which weights.
+/// Nodes that sixteen particles reach, and their weights.
 struct Stencils {
-  IntLanes node;        // first of the 3 × 3 × 3
-  Lanes weight[3][3];   // along each axis
-  Lanes from_first[3];  // the particle's place from that node, cells
+  IntLanes node;        // first of the 3 × 3 × 3 nodes
+  Lanes weight[3][3];   // weights along each axis
+  Lanes from_first[3];  // position of the particle relative to that node, cells
 };
 
-/// Quadratic B-spline at the three nodes from the first, a distance f ∈ [½, 1½] before the particle.
+/// Quadratic B-spline at the three nodes; the first is a distance f ∈ [½, 1½] before the particle.
 TACIPC_INLINE void spline(const Lanes& f, Lanes* weight) {
   weight[0] = 0.5f * (1.5f - f) * (1.5f - f);
   weight[1] = 0.75f - (f - 1.0f) * (f - 1.0f);
@@ -24,7 +24,7 @@ TACIPC_INLINE void spline(const Lanes& f, Lanes* weight) {
 TACIPC_INLINE void find_stencils(const ParticlePack& pack, const Slab& slab, Stencils& out) {
   out.node = IntLanes{};
   for (int axis = 0; axis < 3; ++axis) {
-    // Counted from the slab's origin all places are positive, so that cutting off is rounding down.
+    // From the slab's origin all positions are positive, so that truncation rounds down.
     const Lanes x = (pack.rest[axis] - static_cast<float>(slab.origin[axis])) + pack.shift[axis];
     const IntLanes cell = __builtin_convertvector(x - 0.5f, IntLanes);
     out.from_first[axis] = x - __builtin_convertvector(cell, Lanes);
@@ -39,11 +39,11 @@ TACIPC_INLINE int num_particles(const ParticlePack& pack) {
   return count;
 }
 
-/// 0 on the four places of the first node, 1 on those of the next, …
+/// 0 in the four lanes of the first node, 1 in those of the next, …
 constexpr Lanes kLevel = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 
 /// Adds wx[i] wy[j] (column + i along_x + j along_y) to the columns of nodes that a particle reaches. Each column of
-/// three is added to as one of four, the last with weight 0.
+/// three is updated as one of four, the last with weight 0.
 TACIPC_INLINE void add_to_columns(float* first, std::ptrdiff_t stride_x, std::ptrdiff_t stride_y, const float* wx,
                                   const float* wy, const Lanes& column, const Lanes& along_x, const Lanes& along_y) {
 #pragma GCC unroll 3
@@ -79,7 +79,7 @@ TACIPC_CLONES void scatter(const ParticlePack* packs, int num_packs, const StepM
     for (int r = 0; r < 3; ++r)
       at_first[r] = pack->velocity[r] - (affine[3 * r] * at.from_first[0] + affine[3 * r + 1] * at.from_first[1] +
                                          affine[3 * r + 2] * at.from_first[2]);
-    // Per particle: (momentum, mass) at the first node, and how momentum grows along x, y, z.
+    // Per particle: (momentum, mass) at the first node, and its increments along x, y, z.
     FloatQuad first[kParticleLanes], grow[3][kParticleLanes], weight[3][kParticleLanes];
     quads_of_lanes(at_first[0], at_first[1], at_first[2], all_lanes(1.0f), first);
     for (int axis = 0; axis < 3; ++axis) {
@@ -194,7 +194,7 @@ TACIPC_CLONES GatherReport gather(ParticlePack* packs, int num_packs, const Slab
       pack->affine[k] = C[k];
       pack->deformation[k] = F[k];
     }
-    // A comparison with what is not a number is false.
+    // A comparison with NaN is false.
     largest = larger(speed_squared < 1e6f ? speed_squared : all_lanes(std::numeric_limits<float>::infinity()), largest);
   }
   return {largest_of(largest)};

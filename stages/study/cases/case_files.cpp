@@ -15,7 +15,7 @@ std::string ball_indenter(double radius_m, double edge_m) {
 
 std::string indenter(const ObjectCase& object, const BenchmarkCases& cases) {
   if (object.ball_radius_m) return ball_indenter(*object.ball_radius_m, cases.ball_edge_m);
-  // Twice as deep as the deepest press, so that the cut is never touched.
+  // Relief twice as deep as the deepest press, so that the gel never touches the cut.
   const double relief_m = 2.0 * object.images.back().depth_m + 2.0 * object.edge_radius_m;
   return fmt::format("mesh: {{unit: {}, edge_radius_mm: {}, spacing_mm: {}, relief_mm: {}}}\n", object.unit,
                      1e3 * object.edge_radius_m, 1e3 * cases.mesh_spacing_m, 1e3 * relief_m);
@@ -45,7 +45,7 @@ std::string shade(const ObjectCase& object) {
                             object.fit_yaw);
 }
 
-/// What calibrate takes of objects that calibrate; empty if none does.
+/// Known objects that calibrate, as input of calibrate; empty if there are none.
 std::string known_objects(const BenchmarkCases& cases) {
   std::string text;
   for (const ObjectCase& object : cases.objects) {
@@ -63,7 +63,7 @@ std::string known_objects(const BenchmarkCases& cases) {
 
 std::string metrics(const BenchmarkCases& cases) {
   std::string text = "kind: images\noffset_outside_box: true\nboxes:\n";
-  // The metrics name images below the folder that all have in common, which with one object is the object's.
+  // The metrics name images below their common folder, which for a single object is the object's.
   for (const ObjectCase& object : cases.objects)
     for (const PhotographCase& image : object.images)
       for (const std::string& name : {object.name + "/" + image.name + ".png", image.name + ".png"})
@@ -129,7 +129,7 @@ CaseFiles case_files(const BenchmarkCases& cases, const std::string& folder) {
   }
   if (const std::string known = known_objects(cases); !known.empty()) files.emplace_back("known_objects.yaml", known);
   for (const ObjectCase& object : cases.objects) {
-    if (!cases.circle_table) {  // else the press that calibrates serves
+    if (!cases.circle_table) {  // otherwise the press for calibration serves
       files.emplace_back("objects/" + object.name + "/indenter.yaml", indenter(object, cases));
       files.emplace_back("objects/" + object.name + "/motion.yaml", motion(object));
     }

@@ -11,7 +11,7 @@ namespace {
 std::string indenter(const Measurement& m) {
   if (m.ball_radius_mm)
     return fmt::format("ball: {{radius_mm: {:.10g}, edge_mm: {:.10g}}}\n", *m.ball_radius_mm, m.edge_mm);
-  // As much of its relief as can touch: a little more than the press is deep.
+  // Only the part of the relief that can touch: a little more than the depth of the press.
   return fmt::format("mesh: {{unit: {}, edge_radius_mm: {:.10g}, spacing_mm: {:.10g}, relief_mm: {:.10g}}}\n", m.unit,
                      m.edge_radius_mm, m.edge_mm, 2.0 * m.depths_mm.back());
 }
@@ -74,7 +74,7 @@ CaseFiles identify_files(const IdentifySpec& spec, const std::string& folder) {
     make.set("GEL_" + node.name, gel);
     if ((" " + gels + " ").find(" " + gel + " ") == std::string::npos) {
       add(gels, gel);
-      make.set("FIRST_" + gel, node.name);  // whose sensor the gel is made for: only the thickness matters
+      make.set("FIRST_" + gel, node.name);  // node whose sensor the gel is made for; only the thickness matters
     }
   }
   make.set("NODES", nodes);

@@ -15,7 +15,8 @@ const StageSpec kCases{
     .inputs = {{"--config", "the benchmark (YAML)"},
                InputSpec::optional("--circles", "contact circles of its photographs (CSV), where it names them")}};
 
-/// Photographs, marker vectors (`fields`) measured in them, or `measurements` that tell a sensor's mechanics.
+/// Kinds of benchmarks: photographs, marker vectors measured in them (`fields`), or `measurements` that determine a
+/// sensor's mechanics.
 struct Benchmark {
   std::optional<BenchmarkCases> photographs;
   std::optional<MarkerBenchmark> markers;
@@ -28,7 +29,7 @@ struct Benchmark {
   }
 };
 
-/// Only of the forces of a quasi-static press may the modulus be taken out.
+/// Checks that the press is quasi-static: only then are forces proportional to the modulus.
 void refuse_moving_press(const std::filesystem::path& file) {
   ConfigReader in = ConfigReader::from_file(file);
   const std::string dynamics = in.text_or("dynamics", "implicit_euler");

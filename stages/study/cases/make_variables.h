@@ -1,4 +1,4 @@
-// The file cases.mk: variables for Make.
+// Writes the file cases.mk: variables for Make.
 #pragma once
 
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 
 namespace tacipc {
 
+/// Collects variables with a common prefix.
 class MakeVariables {
  public:
   MakeVariables(std::string prefix, std::string folder) : prefix_(std::move(prefix)), folder_(std::move(folder)) {}
@@ -15,7 +16,7 @@ class MakeVariables {
   void set(const std::string& name, const std::string& value) {
     text_ += fmt::format("{}_{} := {}\n", prefix_, name, value);
   }
-  /// A configuration, named relative to the benchmark's file.
+  /// Sets the path of a configuration that is named relative to the benchmark's file.
   void set_path(const std::string& name, const std::string& path) {
     set(name, (folder_ / path).lexically_normal().generic_string());
   }

@@ -11,7 +11,7 @@ namespace {
 
 std::string depth_name(double depth_m) { return fmt::format("{:04}um", std::lround(1e6 * depth_m)); }
 
-/// Pressed where the contact is in the image, then dragged.
+/// Motion: a press at the contact's position in the image, then a sideways motion.
 std::string motion(const MarkerBenchmark& benchmark, double depth_m) {
   const Eigen::Vector2d center_mm =
       1e3 * (benchmark.assumed.contact_px - 0.5 * benchmark.image_px) / benchmark.assumed.px_per_m;

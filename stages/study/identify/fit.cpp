@@ -15,11 +15,11 @@
 namespace tacipc {
 namespace {
 
-/// Step of differences, in deviations of the prior.
+/// Step of differences, in standard deviations of the prior.
 constexpr double kStep = 1e-3;
 
-/// Those of mechanics that are not possible (a marker beyond what was simulated or what the camera sees, no finite
-/// force): nothing.
+/// Residuals; nothing if the mechanics are not possible (a marker beyond the simulation or the camera's view, no finite
+/// force).
 std::optional<Eigen::VectorXd> possible_residuals(const MechanicsModel& model, const Eigen::VectorXd& u) {
   try {
     Eigen::VectorXd r = model.residuals(u);
@@ -31,7 +31,7 @@ std::optional<Eigen::VectorXd> possible_residuals(const MechanicsModel& model, c
 
 double scaled(const Unknown& unknown, double u) { return (u - unknown.u_mean()) / unknown.prior.sigma; }
 
-/// Central differences by `step` (of u), inside the bounds; one-sided at them.
+/// Central differences with `step` (in u) inside the bounds; one-sided at the bounds.
 Eigen::MatrixXd jacobian(const MechanicsModel& model, const Eigen::VectorXd& u, const Eigen::VectorXd& step) {
   const Eigen::Index n = u.size();
   Eigen::MatrixXd out(model.rows() + n, n);
@@ -51,7 +51,7 @@ Eigen::VectorXd small_steps(const MechanicsModel& model) {
   return step;
 }
 
-/// Residuals over the unknowns in deviations of their priors, where all are of size one.
+/// Residuals over the unknowns in standard deviations of their priors, in which all are of order one.
 class ScaledCost final : public ceres::CostFunction {
  public:
   explicit ScaledCost(const MechanicsModel& model) : model_(model) {
@@ -87,7 +87,7 @@ class ScaledCost final : public ceres::CostFunction {
   const MechanicsModel& model_;
 };
 
-/// \param held an unknown that stays where it starts, or −1
+/// \param held unknown that stays at its start, or −1
 std::pair<Eigen::VectorXd, int> minimise(const MechanicsModel& model, const Eigen::VectorXd& start, Eigen::Index held) {
   const Unknowns& unknowns = model.unknowns();
   const int n = static_cast<int>(unknowns.size());
@@ -114,8 +114,8 @@ std::pair<Eigen::VectorXd, int> minimise(const MechanicsModel& model, const Eige
   return {ScaledCost::u_of(unknowns, s.data()), static_cast<int>(summary.iterations.size())};
 }
 
-/// Markers between frames are interpolated, with a kink at each frame: differences over as much as the deviations
-/// themselves, which those over small steps tell first, see past it.
+/// Covariance of u. Markers between frames are interpolated, with a kink at each frame. Differences over small steps
+/// give first standard deviations; differences over steps of that size then average over the kinks.
 Eigen::MatrixXd covariance_at(const MechanicsModel& model, const Eigen::VectorXd& u) {
   const Eigen::Index n = u.size();
   Eigen::VectorXd step = small_steps(model);
@@ -123,7 +123,7 @@ Eigen::MatrixXd covariance_at(const MechanicsModel& model, const Eigen::VectorXd
   for (int round = 0; round < 3; ++round) {
     const Eigen::MatrixXd j = jacobian(model, u, step);
     covariance = (j.transpose() * j).ldlt().solve(Eigen::MatrixXd::Identity(n, n));
-    // Of one unknown, the others held: a step that changes the residuals by about one deviation.
+    // Step for one unknown with the others held: it changes the residuals by about one standard deviation.
     for (Eigen::Index i = 0; i < n; ++i) step[i] = 1.0 / j.col(i).norm();
   }
   return covariance;
@@ -135,7 +135,7 @@ Fit fit_mechanics(MechanicsModel& model) {
   constexpr Eigen::Index kEnoughRows = 8;
   constexpr int kRounds = 6;
   Fit fit{.u = model.unknowns().prior_mean(), .covariance = {}};
-  model.residuals(fit.u);  // says what is wrong with data that no mechanics fit
+  model.residuals(fit.u);  // throws a message about data that no mechanics fit
   for (int round = 0;; ++round) {
     const auto [u, iterations] = minimise(model, fit.u, -1);
     fit.u = u;

@@ -1,4 +1,4 @@
-// The most probable mechanics, how certain each of them is, and draws of what they may be.
+// Fits the most probable mechanics, with uncertainties and posterior draws.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,46 +9,48 @@
 
 namespace tacipc {
 
+/// Result of the fit.
 struct Fit {
-  Eigen::VectorXd u;           // the most probable unknowns
-  Eigen::MatrixXd covariance;  // of u, (JᵀJ)⁻¹ with the priors' rows in J: near the optimum
+  Eigen::VectorXd u;           // most probable unknowns
+  Eigen::MatrixXd covariance;  // covariance of u near the optimum, (JᵀJ)⁻¹ with the priors' rows in J
   int iterations = 0;
 };
 
-/// Minimises |residuals|² within the bounds by Levenberg and Marquardt's method with central differences (Ceres). Where
-/// the rows of a measurement (eight or more) deviate more than their deviations say, these grow to their root mean
-/// square and the fit is repeated: the model's error is not to be taken for certainty. \throw DataError if it does not
-/// converge
+/// Minimises |residuals|² within the bounds by the Levenberg–Marquardt method with central differences (Ceres). If the
+/// rows of a measurement (eight or more) deviate more than their standard deviations predict, these grow to the root
+/// mean square of the deviations and the fit is repeated. The model's error then does not count as certainty.
+/// \throw DataError if the fit does not converge
 Fit fit_mechanics(MechanicsModel& model);
 
-/// One value of an unknown held, all others fitted again.
+/// Least cost with one unknown held at a value and all others fitted again.
 struct ProfilePoint {
   double value = 0.0;
-  double cost = 0.0;  // |residuals|² above the least
+  double cost = 0.0;  // |residuals|² above the minimum
 };
-/// At even steps over ± 3 deviations, within the bounds.
+/// Cost profile at even steps over ± 3 standard deviations, within the bounds.
 std::vector<ProfilePoint> profile(const MechanicsModel& model, const Fit& fit, Eigen::Index unknown, int points);
 
-/// Draws from the posterior: from a multivariate Student distribution (five degrees of freedom) about the optimum, with
-/// the ratio of both densities as weights; none outside the bounds.
+/// Draws from the posterior. They come from a multivariate Student distribution (five degrees of freedom) around the
+/// optimum, and are weighted by the ratio of both densities. No draw lies outside the bounds.
 struct Posterior {
-  Eigen::MatrixXd u;             // a column per draw
-  Eigen::VectorXd weight;        // sum 1
+  Eigen::MatrixXd u;             // one column per draw
+  Eigen::VectorXd weight;        // weights of the draws, sum 1
   double effective_draws = 0.0;  // 1 / Σ weight²
 
   double mean(const Eigen::VectorXd& values) const { return weight.dot(values); }
   Eigen::VectorXd mean_u() const { return u * weight; }
   double deviation(const Eigen::VectorXd& values) const;
-  /// Value below which this share of the weight lies.
+  /// Value below which this fraction of the weight lies.
   double quantile(const Eigen::VectorXd& values, double share) const;
-  /// Columns of an even sample of the weights, ascending (systematic resampling).
+  /// Ascending columns of an even sample of the weights (systematic resampling).
   std::vector<Eigen::Index> resampled(int count) const;
 };
 Posterior draw_posterior(const MechanicsModel& model, const Fit& fit, int draws, int seed);
 
-/// Deviation of u by the prior alone, its bounds included.
+/// Standard deviation of u by the prior alone, including its bounds.
 double prior_deviation(const Unknown& unknown);
-/// Whether measurements told an unknown, or it is still what the prior says: they did where they halve its variance.
+/// True if the measurements determine an unknown, false if it is still the prior: they must at least halve its
+/// variance.
 bool told_by_measurements(const Unknown& unknown, double deviation_u);
 
 }  // namespace tacipc

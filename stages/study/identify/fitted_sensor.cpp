@@ -10,7 +10,7 @@
 namespace tacipc {
 namespace {
 
-/// Key of the sensor file that a parameter of the mechanics is.
+/// Key of the sensor file for a parameter of the mechanics.
 std::string sensor_key(const std::string& name) {
   if (name == kModulus || name == kPoisson) return "material." + name;
   if (name == kThickness) return "gel." + name;
@@ -68,7 +68,7 @@ std::string fitted_sensor(const std::string& text, const std::string& name, cons
   in.finish();
   for (const auto& [path, source] : sensor.sources)
     said.emplace(path, source == "known" ? "[measured]" : source == "derived" ? "[derived]" : "[guess]");
-  // A note of an earlier fit makes room for this one.
+  // A note of an earlier fit is replaced.
   static const std::regex section_line(R"(^(\w+):\s*(#.*)?$)"),
       value_line(R"(^  (\w+): ([^#]*[^# ])\s*(#\s?(\[[^\]]*\]\s?)?(.*))?$)");
   std::string out, section, line;

@@ -1,4 +1,4 @@
-// The fit as files that other stages take: the sensor file, and an ensemble of changes of it.
+// Writes the fit as files that other stages read: the sensor file, and an ensemble of changes to it.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,13 @@
 
 namespace tacipc {
 
-/// Changes of a sensor file (key → YAML) that a set of unknowns means.
+/// Changes of a sensor file (key → YAML) that correspond to the unknowns u.
 std::map<std::string, std::string> sensor_changes(const MechanicsModel& model, const Eigen::VectorXd& u);
-/// The sensor file with the fitted mechanics. Behind every value of gel, material and mount stands where it comes from:
-/// [fitted ± deviation], [measured] or [guess].
+/// Sensor file with the fitted mechanics. Every value of gel, material and mount is followed by its source: [fitted ±
+/// deviation], [measured] or [guess].
+/// \param text sensor file before the fit
 std::string fitted_sensor(const std::string& text, const std::string& name, const IdentifyResult& result);
-/// Members drawn from the posterior, as changes of the sensor file at `sensor`.
+/// Ensemble of members drawn from the posterior, as changes of the sensor file at `sensor`.
 Ensemble ensemble_of(const IdentifyResult& result, const std::filesystem::path& sensor, int members);
 
 }  // namespace tacipc

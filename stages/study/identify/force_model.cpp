@@ -6,7 +6,7 @@
 namespace tacipc {
 namespace {
 
-/// The root in [0, high] of an ascending function, `f(0) <= 0 <= f(high)`, to the last bits.
+/// Root of an ascending function in [0, high], to the last bits. \pre `f(0) <= 0 <= f(high)`
 template <typename F>
 double root_of(double high, F&& f) {
   double low = 0.0;
@@ -43,7 +43,7 @@ std::vector<double> relaxing_force_n(const Curve& force_per_pa, const Mounting& 
   double t = 0.0, elastic = 0.0;
   const auto advance = [&](double to) {
     const double dt = to - t;
-    double kept = 0.0, stiffness = 1.0;  // F(to) = kept + stiffness · E f(δ) + rest of a step's rate
+    double kept = 0.0, stiffness = 1.0;  // F(to) = kept + stiffness · E f(δ); kept depends on the previous step
     std::vector<double> decay(memory.size()), gain(memory.size());
     for (std::size_t i = 0; i < memory.size(); ++i) {
       const double x = dt / relaxation[i].time_s;

@@ -10,7 +10,7 @@
 namespace tacipc {
 namespace {
 
-/// To three digits of the deviation.
+/// Value rounded to three digits of its standard deviation.
 std::string rounded(double value, double sigma) {
   if (!(sigma > 0.0)) return fmt::format("{:.6g}", value);
   const int digits = std::clamp(static_cast<int>(std::floor(std::log10(std::abs(value) / sigma + 1e-30))) + 3, 2, 8);

@@ -7,8 +7,8 @@
 namespace tacipc {
 namespace {
 
-/// Forces and displacements approach those of a sticking contact as friction grows, nearly linearly in 1/μ; in μ a
-/// polynomial would overshoot them between its nodes.
+/// Coordinate of a parameter on the grid. Forces and displacements approach those of a sticking contact as friction
+/// grows, nearly linearly in 1/μ; a polynomial in μ would overshoot between the nodes.
 double place_on_axis(const std::string& name, double value) { return name == kFriction ? 1.0 / value : value; }
 
 NodeGrid grid_of(const IdentifySpec& spec) {

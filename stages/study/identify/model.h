@@ -1,4 +1,4 @@
-// What the measurements should be for given mechanics, and how far off they are.
+// Predicts the measurements for given mechanics, and computes the residuals.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,60 +23,62 @@ struct MeasuredForce {
   double sigma_n = 0.0;
 };
 
-/// A measurement of forces beside what was simulated for it.
+/// Measured forces and their simulations.
 struct ForceData {
   std::vector<MeasuredForce> fitted, held_out;
   CurveTable press;                // force, N per Pa, over depth, mm
-  std::vector<CurveTable> shears;  // tangential force over travel, of each depth of Measurement::depths_mm
+  std::vector<CurveTable> shears;  // tangential force over travel, for each depth of Measurement::depths_mm
 };
 
-/// A measurement of marker vectors beside what was simulated for it.
+/// Measured marker vectors and their simulations.
 struct MarkerData {
-  std::vector<PressedRuns> runs;  // of each node
+  std::vector<PressedRuns> runs;  // simulated runs of each node
   MarkerField press, shear;
 };
 
-/// Of each measurement, one of the two.
+/// Data of one measurement; exactly one of the two is set.
 struct MeasurementData {
   std::optional<ForceData> force;
   std::optional<MarkerData> markers;
 };
 
+/// Model of all measurements of an identification.
 class MechanicsModel {
  public:
-  /// \param data in the order of spec.measurements. \param held the sensor's own mechanics, for what is not fitted
+  /// \param data in the order of spec.measurements
+  /// \param held the sensor's own mechanics, for parameters that are not fitted
   MechanicsModel(const IdentifySpec& spec, std::vector<MeasurementData> data, const Sensor& held);
 
   const IdentifySpec& spec() const { return spec_; }
   const Unknowns& unknowns() const { return unknowns_; }
   const MeasurementData& data(std::size_t measurement) const { return data_[measurement]; }
 
-  /// What the fitted rows of a measurement should be: forces, N, or displacements, px (x and y of each fitted
-  /// marker of the press, then of the shear).
+  /// Predicted fitted rows of a measurement: forces, N, or displacements, px (x and y of each fitted marker of the
+  /// press, then of the shear).
   Eigen::VectorXd predicted(std::size_t measurement, const Eigen::VectorXd& u) const;
-  /// What they are, and their deviations.
+  /// Measured values of these rows, and their standard deviations.
   Eigen::VectorXd measured(std::size_t measurement) const;
   Eigen::VectorXd sigma(std::size_t measurement) const;
-  /// Force of a press to a depth by the table, mm.
+  /// Predicted force of a press to a depth on the table's scale, N. `depth_mm` in mm.
   double press_force_n(std::size_t measurement, const Eigen::VectorXd& u, double depth_mm) const;
-  /// Displacements of the press [0] and of the shear [1], px; 2 × markers.
+  /// Predicted marker displacements of the press (first) and of the shear (second), px; 2 × markers.
   std::pair<Eigen::Matrix2Xd, Eigen::Matrix2Xd> marker_px(std::size_t measurement, const Eigen::VectorXd& u) const;
 
-  /// Which markers are fitted: all, or the even or the odd ones, so that the others are predicted.
+  /// Fitted markers: all, or only the even or odd ones, so that the others are predictions.
   enum class Markers { all, even, odd };
   Markers fitted_markers = Markers::all;
   bool fits_marker(Eigen::Index i) const {
     return fitted_markers == Markers::all || (i % 2 == 0) == (fitted_markers == Markers::even);
   }
-  /// Deviations of measurements are multiplied by these (1 unless the fit found them too small).
+  /// Factors on the measurements' standard deviations (1 unless the fit found them too small).
   std::vector<double> sigma_factor;
   /// (predicted − measured) / deviation of the fitted rows of a measurement.
   Eigen::VectorXd off(std::size_t measurement, const Eigen::VectorXd& u) const {
     return (predicted(measurement, u) - measured(measurement)).cwiseQuotient(sigma(measurement));
   }
-  /// The same of every measurement, then (u − mean) / deviation of every prior.
+  /// Residuals off() of every measurement, then (u − mean) / deviation of every prior.
   Eigen::VectorXd residuals(const Eigen::VectorXd& u) const;
-  Eigen::Index rows() const;  // without those of priors
+  Eigen::Index rows() const;  // number of fitted rows, without priors
   Eigen::Vector2d camera_px() const { return {held_.camera.width_px, held_.camera.height_px}; }
 
  private:

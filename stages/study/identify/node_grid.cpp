@@ -7,7 +7,7 @@
 namespace tacipc {
 namespace {
 
-/// Keeps the sign, so that it has an inverse.
+/// Power that keeps the sign, so that it has an inverse.
 double power(double y, double exponent) { return std::copysign(std::pow(std::abs(y), exponent), y); }
 
 /// Slope at the middle of three points that keeps the interpolant between them monotone.

@@ -1,4 +1,4 @@
-// What is fitted: the sensor's mechanics, and what each measurement leaves unknown.
+// Fitted unknowns: the sensor's mechanics, and the unknowns of each measurement.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,16 +10,16 @@
 
 namespace tacipc {
 
-/// One unknown. The fit works with u: the number itself, or its logarithm where the prior is that of the logarithm.
+/// One unknown. The fit works with u: the number itself, or its logarithm if the prior is one of the logarithm.
 struct Unknown {
   std::string name;
-  std::string measurement = {};  // that it belongs to alone; none: it is of the sensor
+  std::string measurement = {};  // only measurement with this unknown; empty: the unknown belongs to the sensor
   Prior prior;
 
   double u_of(double value) const;
   double value_of(double u) const;
   double u_mean() const { return u_of(prior.mean); }
-  double u_low() const;  // −∞ where a logarithm is bounded by 0
+  double u_low() const;  // −∞ if a logarithm is bounded by 0
   double u_high() const;
 };
 
@@ -32,7 +32,7 @@ class Unknowns {
   const Unknown& operator[](Eigen::Index i) const { return all_[i]; }
   const std::vector<Unknown>& all() const { return all_; }
   std::optional<Eigen::Index> find(const std::string& name, const std::string& measurement = {}) const;
-  /// Value of an unknown at u, or what holds where it is not fitted.
+  /// Value of an unknown at u; `held` if it is not fitted.
   double value(const Eigen::VectorXd& u, const std::string& name, const std::string& measurement, double held) const;
   Eigen::VectorXd prior_mean() const;
   bool within_bounds(const Eigen::VectorXd& u) const;

@@ -8,14 +8,14 @@
 namespace tacipc {
 namespace {
 
-/// ln of the checked over the unchecked force at a depth.
+/// Logarithm of the checked over the unchecked force at a depth.
 double change_at(const CheckedPress& check, double depth_mm) {
   const Eigen::Vector2d as_it_is(1.0, 0.0), checked(0.0, 1.0);
   const double force = check.table.blend(as_it_is).at(depth_mm), other = check.table.blend(checked).at(depth_mm);
   return force > 0.0 && other > 0.0 ? std::log(other / force) : 0.0;
 }
 
-/// Over the fitted rows, as the fit weighs them: by (force / deviation)².
+/// Mean change over the fitted rows, weighted as in the fit by (force / deviation)².
 double mean_change(const CheckedPress& check, const MechanicsModel& model) {
   double sum = 0.0, weights = 0.0;
   for (const MeasuredForce& row : model.data(check.measurement).force->fitted) {
@@ -26,7 +26,7 @@ double mean_change(const CheckedPress& check, const MechanicsModel& model) {
   return weights > 0.0 ? sum / weights : 0.0;
 }
 
-/// Sums over the markers that are fitted, or over those that are not.
+/// Marker errors over the fitted markers, or over the others.
 std::vector<MarkerErrors> marker_errors(const MechanicsModel& model, std::size_t measurement,
                                         const Posterior& posterior, bool fitted) {
   const MarkerMeasurement& m = *model.spec().measurements[measurement].markers;

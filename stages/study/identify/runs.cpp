@@ -13,7 +13,8 @@
 namespace tacipc {
 namespace {
 
-/// Of one press: depths (mm) and normal forces (N) of its frames; then travels (mm) and tangential forces of a shear.
+/// Data of one press: depths (mm) and normal forces (N) of its frames; then travels (mm) and tangential forces of a
+/// shear.
 struct ForceRun {
   std::vector<double> depth_mm, press_n, travel_mm, shear_n;
 };
@@ -28,7 +29,7 @@ ForceRun read_forces(const std::filesystem::path& folder, double depth_mm) {
   for (std::size_t f = 0; f < phases.size(); ++f)
     if (phases[f] <= PhaseKind::press) end = f;
   if (end == 0) throw DataError("{}: is no press", folder.string());
-  // The object's own zero is not in its pose; the motion ends at a known depth.
+  // The pose does not contain the object's own zero, so depths count from the known depth at the end of the motion.
   const Vector3 last = poses[end].topRightCorner<3, 1>();
   for (std::size_t f = 0; f <= end; ++f) {
     const double depth = depth_mm - 1e3 * (poses[f](2, 3) - last.z());
@@ -45,8 +46,8 @@ ForceRun read_forces(const std::filesystem::path& folder, double depth_mm) {
   return run;
 }
 
-/// At the places of the first run. Those of others may be a little beside: frames divide the way from the start, which
-/// depends on the gel.
+/// Curves at the depths or travels of the first run. Those of other runs may differ slightly, because frames divide a
+/// travel from a start that depends on the gel.
 CurveTable table_of(const std::vector<std::filesystem::path>& folders, const std::vector<std::vector<double>>& x,
                     const std::vector<std::vector<double>>& y, double modulus_pa, double exponent) {
   CurveTable table{.x = {0.0}, .y = {}, .exponent = exponent};
@@ -74,7 +75,7 @@ void read_rows(const Measurement& m, const std::filesystem::path& path, ForceDat
     row.sigma_n = std::hypot(m.sigma_n, m.sigma_relative * row.force_n);
     if (!std::isfinite(row.at) || !std::isfinite(row.force_n))
       throw DataError("{}:{}: is not finite", path.string(), table.line());
-    // Before contact a press has no force.
+    // A press has no force before contact, so its rows may be negative.
     if (!(row.at >= 0.0) && m.kind != MeasurementKind::press)
       throw DataError("{}:{}: {} must not be negative", path.string(), table.line(), at);
     const double furthest = m.kind == MeasurementKind::press ? m.depths_mm.back() : m.travel_mm;
@@ -106,7 +107,7 @@ ForceData read_force_data(const IdentifySpec& spec, const Measurement& m, const 
       if (!m.sheared()) continue;
       if (run.travel_mm.size() < 3) throw DataError("{}: is not dragged", folders.back().string());
       travels.emplace_back(run.travel_mm.begin() + 1, run.travel_mm.end());
-      // What friction carries when the drag begins is of the press.
+      // The friction force at the start of the sideways motion belongs to the press.
       std::vector<double> more;
       for (std::size_t i = 1; i < run.shear_n.size(); ++i) more.push_back(run.shear_n[i] - run.shear_n.front());
       tangential.push_back(std::move(more));

@@ -1,4 +1,4 @@
-// Presses at every node, as the files of the press stage tell them, and the tables they are compared with.
+// Reads the presses at every node from the files of `press`, and the measured tables.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +12,15 @@
 
 namespace tacipc {
 
-/// Folder of the press of a measurement at a node (or of a check), by run_name.
+/// Maps a node (or a check) and a run_name to the folder of that press.
 using RunFolder = std::function<std::filesystem::path(const std::string& node, const std::string& run)>;
 
-/// Force, N per Pa of the modulus that presses to `depth_mm` were run with, over the depth of their frames, mm. \throw
-/// DataError if the gel's wrench or the object's pose are missing or the press is not one into the gel
+/// Force over the depth of the frames, mm, in N per Pa of the modulus with which presses to `depth_mm` were run.
+/// \throw DataError if the gel's wrench or the object's pose is missing, or the press is not one into the gel
 CurveTable read_press_table(const std::vector<std::filesystem::path>& folders, double modulus_pa, double depth_mm);
 
-/// Reads what was simulated and measured for every measurement. \throw DataError where a table has no fitted row, a row
-/// is deeper than what is simulated, or runs do not fit together
+/// Reads the simulated and measured data of every measurement.
+/// \throw DataError if a table has no fitted row, a row is deeper than the simulation, or runs do not fit together
 std::vector<MeasurementData> read_measurements(const IdentifySpec& spec, const RunFolder& folder,
                                                const std::map<std::string, std::filesystem::path>& measured,
                                                double modulus_pa);

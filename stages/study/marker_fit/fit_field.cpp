@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kCandidates = 1000;
 
-/// Of even values from low to high the one of least cost, and whether it is the last.
+/// Value of least cost among evenly spaced ones from low to high, and whether it is the last.
 template <typename Cost>
 std::pair<double, bool> least(double low, double high, Cost&& cost) {
   int best = 0;
@@ -32,7 +32,7 @@ std::pair<double, bool> least(double low, double high, Cost&& cost) {
 
 void remove_median(Eigen::Matrix2Xd& vectors) { vectors.colwise() -= median_of(vectors); }
 
-/// From the ball's axis, m.
+/// Marker positions relative to the ball's axis, m.
 Eigen::Matrix2Xd from_axis(const MarkerField& field, const MarkerAssumptions& assumed) {
   return (field.rest_px.colwise() - assumed.contact_px) / assumed.px_per_m;
 }

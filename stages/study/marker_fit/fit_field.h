@@ -1,4 +1,4 @@
-// Unrecorded depth and travel of a ball from the marker vectors they caused, and the residuals.
+// Estimates the unrecorded depth and travel of a ball from the marker vectors they caused, and the residuals.
 #pragma once
 
 #include <optional>
@@ -10,44 +10,49 @@
 
 namespace tacipc {
 
-/// How far simulated vectors u are from measured ones m, px.
+/// Errors of simulated vectors u against measured ones m, px.
 struct FieldErrors {
   int markers = 0;
-  double mean_px = 0.0;  // of the end-point error |u − m|
+  double mean_px = 0.0;  // mean end-point error |u − m|
   double median_px = 0.0;
   double max_px = 0.0;
-  int directions = 0;      // measured vectors long enough to have one
-  double angle_deg = 0.0;  // mean angle between u and m over those
+  int directions = 0;      // number of measured vectors that are long enough to have a direction
+  double angle_deg = 0.0;  // mean angle between u and m over these vectors
   double ratio = 0.0;      // Σ|u| / Σ|m|
 };
 
-/// `left_out` is a marker that does not count. \pre as many columns in both
+/// Computes the errors. \pre as many columns in both
+/// \param left_out marker that does not count
 FieldErrors field_errors(const Eigen::Matrix2Xd& simulated, const Eigen::Matrix2Xd& measured, double least_length_px,
                          std::optional<Eigen::Index> left_out);
 
-/// What was measured, as the fit sees it.
+/// Measured fields in the form the fit uses.
 struct MeasuredPressAndShear {
-  MarkerField press, shear;       // medians removed where the benchmark says so
-  Eigen::Index shear_marker = 0;  // of `shear`: the one that the travel is fitted to
+  MarkerField press, shear;       // fields, without their medians if the benchmark removes these
+  Eigen::Index shear_marker = 0;  // marker of `shear` to which the travel is fitted
 
   /// \throw DataError if no marker rests within 1 px of `shear_marker_px`
   MeasuredPressAndShear(MarkerField press_field, MarkerField shear_field, const MarkerBenchmark& benchmark);
 };
 
+/// Fitted depth and travel, and the remaining errors.
 struct FieldFit {
   double depth_m = 0.0;
-  std::string depth_end = {};  // "the shallowest" or "the deepest" that is sheared, if one beyond it might fit better
+  std::string depth_end =
+      {};  // "the shallowest" or "the deepest" depth with a shear, if a depth beyond it might fit better
   double way_m = 0.0;
-  double way_missed_px = 0.0;           // by how much the fitted marker is still off
-  Eigen::Matrix2Xd press_px, shear_px;  // simulated, at the measured markers
-  FieldErrors press, shear;             // of the shear without the marker that was fitted
+  double way_missed_px = 0.0;           // remaining distance of the fitted marker
+  Eigen::Matrix2Xd press_px, shear_px;  // simulated vectors at the measured markers
+  FieldErrors press, shear;             // errors; for the shear without the fitted marker
 };
 
-/// The depth is the one of 1001 even ones up to the deepest press whose vectors are nearest to the measured press
-/// (least squares over all markers); the travel is the one of 1001 up to the longest shear that brings the chosen
-/// marker nearest to where it was measured. A median that was removed from measured vectors is removed from simulated
-/// ones too. \throw DataError if the travel is the longest one simulated, or the depth beyond those that are sheared
-/// and the nearest of them is not to be taken
+/// Fits depth and travel. The depth is one of 1001 even values up to the deepest press: the one whose vectors are
+/// nearest to the measured press (least squares over all markers). The travel is one of 1001 values up to the longest
+/// shear: the one that brings the chosen marker nearest to its measured position. If the median was removed from
+/// measured vectors, it is also removed from simulated ones.
+/// \param take_ends accept the nearest simulated depth if the fit lies beyond the depths with a shear
+/// \throw DataError if the travel is the longest simulated one, or the depth lies beyond those with a shear and
+/// `take_ends` is false
 FieldFit fit_field(const PressedRuns& runs, const MeasuredPressAndShear& measured, const MarkerAssumptions& assumed,
                    const MarkerBenchmark& benchmark, bool take_ends = false);
 

@@ -25,7 +25,7 @@ std::string fit_table(const std::vector<FitRow>& rows, const MeasuredPressAndShe
   std::string fits;
   for (const FitRow& row : rows) {
     if (row.fit) {
-      constexpr double kMatchedPx = 0.5;  // as exact as it was measured
+      constexpr double kMatchedPx = 0.5;  // accuracy of the measurement
       const std::string missed = row.fit->way_missed_px > kMatchedPx
                                      ? fmt::format(" (its marker off by {:.1f} px)", row.fit->way_missed_px)
                                      : "";

@@ -26,13 +26,13 @@ const StageSpec kMarkerFit{
                  .help = "what the first row is called (default: the name its runs were given under)",
                  .fallback = ""}}};
 
-/// What was given under one name.
+/// Presses given under one name.
 struct Presses {
   std::string name;
   std::vector<std::filesystem::path> folders;
 };
 
-/// By name, in the order in which names were given first.
+/// Presses by name, in the order in which names first occur.
 std::vector<Presses> presses_of(const std::vector<NamedPath>& runs) {
   std::vector<Presses> presses;
   for (const auto& [name, folder] : runs) {
@@ -58,8 +58,8 @@ FitRow row_of(const std::string& name, const PressedRuns& runs, const MeasuredPr
   return tried_row(name, [&] { return fit_field(runs, measured, assumed, benchmark); });
 }
 
-/// Another simulator's. It may have left no presses at all; where a depth beyond those it simulated would
-/// fit better the nearest of them is taken, for it may well have no other.
+/// Row of another simulator. It may have left no presses. If a depth beyond its simulated ones would fit better, the
+/// nearest of them is used, because it may have no other.
 FitRow row_of_other(const Presses& presses, const MeasuredPressAndShear& measured, const MarkerBenchmark& benchmark) {
   return tried_row(presses.name, [&] {
     const PressedRuns runs(presses.folders, benchmark.assumed.ball_radius_m);
@@ -67,7 +67,8 @@ FitRow row_of_other(const Presses& presses, const MeasuredPressAndShear& measure
   });
 }
 
-/// Both fields, measured and simulated; names of files begin with `prefix`, titles with `simulator` where there is one.
+/// Writes both fields, measured and simulated. File names begin with `prefix`, titles with `simulator` if it is not
+/// empty.
 void write_pictures(Stage& stage, const std::string& prefix, const std::string& simulator, const FieldFit& fit,
                     const MeasuredPressAndShear& measured, const MarkerBenchmark& benchmark) {
   constexpr double kEnlargedPress = 4.0, kEnlargedShear = 2.0;

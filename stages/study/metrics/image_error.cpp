@@ -9,7 +9,7 @@ namespace tacipc {
 
 ImageError image_error(const ByteImage& a, const ByteImage& b) {
   assert(a.pixels.size() == b.pixels.size() && !a.pixels.empty());
-  // Whole numbers: exact in any order.
+  // Integers: the sum is exact in any order.
   std::int64_t absolute = 0, squared = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
     const std::int64_t difference = int{a.pixels[i]} - int{b.pixels[i]};

@@ -50,7 +50,7 @@ std::vector<ImagePair> pair_lists(const std::vector<fs::path>& listed, const std
   }
   std::vector<fs::path> images;
   for (const fs::path& image : listed) images.push_back(image.lexically_normal());
-  // Names that do not depend on where that folder lies.
+  // Names are independent of the location of the common folder.
   const fs::path folder = common_folder(images);
   std::vector<ImagePair> pairs;
   for (std::size_t i = 0; i < images.size(); ++i) {

@@ -1,4 +1,4 @@
-// Which image is compared with which.
+// Pairs each image with its reference.
 #pragma once
 
 #include <filesystem>
@@ -7,17 +7,19 @@
 
 namespace tacipc {
 
+/// An image and its reference.
 struct ImagePair {
-  std::string name;  // of the row in samples.csv
+  std::string name;  // name of the row in samples.csv
   std::filesystem::path image;
   std::filesystem::path reference;
-  std::filesystem::path surface = {};  // depth map of the object's, where it is given
+  std::filesystem::path surface = {};  // depth map of the object's surface, if given
 };
 
-/// Two folders: files with the same relative name, in name order; only names that end with `ends_with` and have no
-/// hidden part count. Two lists of files: in the order given, named by their path below the folder that all images have
-/// in common. \throw UsageError for a folder among files or lists of different length, DataError if a file of one
-/// folder is missing in the other or none counts.
+/// Pairs images and references. Two folders: files with the same relative name, in name order; names count if they end
+/// with `ends_with` and have no hidden part. Two lists of files: in the given order, named by their path below the
+/// common folder of all images.
+/// \throw UsageError for a folder among files or lists of different length
+/// \throw DataError if a file of one folder is missing in the other, or no name counts
 std::vector<ImagePair> pair_images(const std::vector<std::filesystem::path>& images,
                                    const std::vector<std::filesystem::path>& references, const std::string& ends_with);
 

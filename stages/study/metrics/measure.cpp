@@ -14,7 +14,7 @@
 namespace tacipc {
 namespace {
 
-/// The rows of all pairs in their order; pairs run in parallel. Where several fail, the first one's error is thrown.
+/// Rows of all pairs in their order; pairs run in parallel. If several fail, the first one's error is thrown.
 template <typename Measure>
 std::vector<MetricsRow> measure_pairs(const std::vector<ImagePair>& pairs, const Measure& measure) {
   std::vector<std::vector<MetricsRow>> of_pair(pairs.size());
@@ -49,7 +49,7 @@ MetricsRow compare(const ByteImage& image, const ByteImage& reference, const Ima
                 ssim(image, reference, box_window()), sharpness(image, reference, {0, 0, image.width, image.height}));
 }
 
-/// Errors of the box's pixels, SSIM and sharpness of the whole image's maps there.
+/// Row of a box: errors of its pixels, SSIM and sharpness from the whole image's maps there.
 MetricsRow compare_in_box(const ByteImage& image, const ByteImage& reference, const Box& box, const ImagePair& pair) {
   return row_of(pair, "box", image_error(cropped(image, box), cropped(reference, box)),
                 ssim_in_box(image, reference, gaussian_window(), box), ssim_in_box(image, reference, box_window(), box),
@@ -62,8 +62,8 @@ void check_inside(const Box& box, const ByteImage& image, const ImagePair& pair,
                   box.x + box.width, box.y + box.height);
 }
 
-/// The image's box, if any is configured. \throw DataError if it does not fit, has no pixel with a whole window, or
-/// leaves no pixel outside although an offset is to be fitted there.
+/// Box of the image, if one is configured. \throw DataError if it does not fit, has no pixel with a whole window, or
+/// leaves no pixel outside for an offset that must be fitted there
 const Box* checked_box(const ByteImage& image, const ImagePair& pair, const ImageMetrics& config) {
   if (config.boxes.empty()) return nullptr;
   const Box* box = config.box_of(pair.name);
@@ -80,7 +80,7 @@ const Box* checked_box(const ByteImage& image, const ImagePair& pair, const Imag
 }
 
 std::vector<MetricsRow> measure_pair(const ImagePair& pair, const ImageMetrics& config) {
-  // Grey images become three equal channels, which changes no mean.
+  // Grey images become three equal channels, which does not change any mean.
   ByteImage image = read_png(pair.image, 3);
   const ByteImage reference = read_png(pair.reference, 3);
   if (image.width != reference.width || image.height != reference.height) {

@@ -1,4 +1,4 @@
-// configs/metrics/*.yaml
+// Content of configs/metrics/*.yaml.
 #pragma once
 
 #include <optional>
@@ -12,31 +12,32 @@
 
 namespace tacipc {
 
-/// Where the contact is, for the images whose name begins so.
+/// Contact box for the images whose name begins with a text.
 struct NamedBox {
-  std::string starts_with;  // empty: every image
+  std::string starts_with;  // beginning of the name; empty: every image
   Box px;
 };
 
-/// What to measure of tactile images.
+/// Measurements on tactile images.
 struct ImageMetrics {
-  std::optional<Box> crop_px = {};   // cut out and evaluated beside the whole image
-  std::vector<NamedBox> boxes = {};  // evaluated within the whole image; the first that fits a name counts
-  bool offset_outside_box = false;   // each image gets one offset per channel first, fitted outside its box
+  std::optional<Box> crop_px = {};   // part that is cut out and evaluated, in addition to the whole image
+  std::vector<NamedBox> boxes = {};  // boxes evaluated within the whole image; the first that fits a name counts
+  bool offset_outside_box = false;   // correct each image by one offset per channel first, fitted outside its box
 
   static ImageMetrics read(ConfigReader& in);
   const Box* box_of(const std::string& name) const;
 };
 
-/// What to measure of depth maps.
+/// Measurements on depth maps.
 struct DepthMetrics {
   DepthRegions regions;
 
   static DepthMetrics read(ConfigReader& in);
 };
 
+/// Configuration of metrics, of one of two kinds.
 struct MetricsConfig {
-  std::string ends_with;  // of the names in folders that count
+  std::string ends_with;  // ending of the names in folders that count
   std::variant<ImageMetrics, DepthMetrics> what;
 
   static MetricsConfig read(ConfigReader& in);

@@ -11,7 +11,7 @@ namespace {
 constexpr double kC1 = (0.01 * 255) * (0.01 * 255);
 constexpr double kC2 = (0.03 * 255) * (0.03 * 255);
 
-/// What is averaged over windows: a, b, a², b², ab.
+/// Quantities averaged over windows: a, b, a², b², ab.
 using Moments = std::array<double, 5>;
 
 /// Weighted sums along rows, at the positions where the window fits: (width − n + 1) × height.

@@ -23,7 +23,7 @@ Value record_of(const std::filesystem::path& path) {
   return ConfigReader::from_file(path).content();
 }
 
-/// A value of a record. \throw DataError if it has none there
+/// Value of a record at a key. \throw DataError if there is none
 const Value& at(const Value& record, const std::filesystem::path& path, const std::string& key) {
   const KeyPath found = follow(record, key);
   if (!found.rest.empty()) throw DataError("{}: has no {}", path.string(), key);
@@ -38,7 +38,7 @@ double number_at(const Value& record, const std::filesystem::path& path, const s
   return value;
 }
 
-/// Files of the photographs of known objects that calibrate beside the balls.
+/// Photographs of known objects that calibrate in addition to the balls.
 std::vector<std::string> calibrating_objects(const std::filesystem::path& folder) {
   const auto path = folder / "cases" / "known_objects.yaml";
   std::vector<std::string> files;
@@ -48,7 +48,7 @@ std::vector<std::string> calibrating_objects(const std::filesystem::path& folder
   return files;
 }
 
-/// Whether an image `a/b_1.0.png` is of a photograph `b_1.0_real.png`.
+/// True if an image `a/b_1.0.png` belongs to a photograph `b_1.0_real.png`.
 bool is_of(const std::string& image, const std::string& photograph) {
   const std::string stem = std::filesystem::path(image).stem().string();
   if (!photograph.starts_with(stem)) return false;

@@ -1,4 +1,5 @@
-// The blind card of a sensor: what was fitted on what, and predictions of what was not, with what was measured beside.
+// Makes the data sheet ("blind card") of a sensor: fitted values with their data, and held-out predictions compared
+// with measurements.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +13,12 @@
 
 namespace tacipc {
 
-/// configs/studies/cards/gelsight_mini.yaml and files like it. Paths are relative to the file.
+/// Content of configs/studies/cards/*.yaml. Paths are relative to the file.
 struct CardConfig {
   std::string title;
-  std::string about;                     // a sentence below the title
-  std::vector<std::string> mechanics;    // files of `identify`
-  std::vector<std::string> photographs;  // benchmarks of `sim2real`
+  std::string about;                     // sentence below the title
+  std::vector<std::string> mechanics;    // identification files
+  std::vector<std::string> photographs;  // photograph benchmarks
 
   static CardConfig read(ConfigReader& in);
 };
@@ -25,26 +26,28 @@ struct CardConfig {
 /// One photograph: errors in the contact box.
 struct CardPhotograph {
   std::string name;
-  bool fitted = false;  // the light learnt from it; to others nothing was fitted but, at most, the place
+  bool fitted = false;  // the light was fitted to it; for other photographs at most the position was fitted
   double rmse_codes = 0.0, ssim = 0.0, mae = 0.0, psnr_db = 0.0;
 };
 
-/// A finished comparison of `sim2real`, by the name of its file.
+/// Results of a finished photograph comparison, named after its file.
 struct CardImages {
   std::string name;
   std::filesystem::path folder;
-  int calibrated_on = 0;              // photographs of balls
-  double predicted_rmse_codes = 0.0;  // error of those that calibrate, each left out of the fit
+  int calibrated_on = 0;              // number of ball photographs for calibration
+  double predicted_rmse_codes = 0.0;  // error of the calibration photographs, each left out of the fit
   std::vector<CardPhotograph> photographs;
 };
-/// \throw DataError if files are missing or say nothing of it
+/// Reads a finished comparison. \throw DataError if files are missing or lack these numbers
 CardImages read_card_images(const std::string& name, const std::filesystem::path& folder);
 
+/// The finished data sheet.
 struct Card {
   std::string page;                                       // Markdown
-  Value::Map values;                                      // the same as YAML
-  std::map<std::string, std::filesystem::path> pictures;  // by the names that the page links
+  Value::Map values;                                      // the numbers of the page as YAML
+  std::map<std::string, std::filesystem::path> pictures;  // files by the names that the page links
 };
+/// Makes the data sheet.
 /// \param mechanics folders of finished fits of `identify`, by the names of their files
 /// \throw DataError if a fit's record or table cannot be read
 Card make_card(const CardConfig& config, const std::vector<NamedPath>& mechanics,

@@ -18,7 +18,7 @@ const std::vector<ShownColumn> kColumns{{.column = "ssim_s", .heading = "SSIM-S"
 const std::vector<ShownRegion> kRegions{{.region = "box", .heading = ""},
                                         {.region = "full", .heading = "whole image: "}};
 
-/// Appends the headings of the columns, the first after some words.
+/// Appends the headings of the columns; `words` precede the first.
 void add_headings(std::vector<std::string>& headings, const std::string& words) {
   for (const ShownColumn& column : kColumns)
     headings.push_back(fmt::format("{}{}", &column == &kColumns.front() ? words : "", column.heading));
@@ -29,7 +29,7 @@ void add_cells(std::vector<std::string>& cells, const ValueOf& value_of) {
   for (const ShownColumn& column : kColumns) cells.push_back(markdown_number(value_of(column.column), column.digits));
 }
 
-/// Number of the benchmark's image among those measured, whose names have folders and an ending.
+/// Index of the benchmark's image among the measured ones, whose names have folders and an ending.
 std::size_t place_of(const MethodScores& method, const std::string& image) {
   for (std::size_t i = 0; i < method.images.size(); ++i)
     if (std::filesystem::path(method.images[i]).stem() == image) return i;

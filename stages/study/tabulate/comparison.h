@@ -1,4 +1,4 @@
-// Our images beside photographs and rivals: means, every image, and whether ours are ahead.
+// Compares TacIPC's images with photographs and with other simulators: means, every image, and the verdict.
 #pragma once
 
 #include <string>
@@ -10,23 +10,25 @@
 
 namespace tacipc {
 
-/// configs/studies/sim2real/comparison.yaml
+/// Content of configs/studies/sim2real/comparison.yaml.
 struct ComparisonConfig {
-  std::vector<MeasuredRow> rows;  // the first is the one judged, the second the one shown beside it
+  std::vector<MeasuredRow> rows;  // methods; the first is judged, the second is shown next to it
 
   static ComparisonConfig read(ConfigReader& in);
 };
 
+/// Reads the scores of all methods.
 /// \throw DataError if the methods were not measured on the benchmark's images, and as read_methods
 std::vector<MethodScores> read_comparison(const std::vector<NamedPath>& tables, const ComparisonConfig& config,
                                           const BenchmarkCases& cases);
 
+/// Verdict on the first method.
 struct Verdict {
-  bool musts = false;  // of the first method, in the box
-  bool ahead = false;  // on SSIM-S, MAE and PSNR in the box of every other method
+  bool musts = false;  // the first method meets the required limits in the box
+  bool ahead = false;  // the first method leads every other one on SSIM-S, MAE and PSNR in the box
 };
 
-/// The first method is the one judged.
+/// Judges the first method.
 Verdict judge(const std::vector<MethodScores>& methods, const BenchmarkCases& cases);
 
 /// The page as Markdown: means of all methods, then every image.

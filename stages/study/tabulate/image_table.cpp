@@ -14,7 +14,7 @@
 namespace tacipc {
 namespace {
 
-/// A line with the name of a group, between rows of its table.
+/// Line with the name of a group, between rows of its table.
 std::string group_line(const std::string& group, std::size_t columns) {
   std::string text = "| **" + markdown_cell(group) + "** |";
   for (std::size_t i = 0; i < columns; ++i) text += "  |";
@@ -31,7 +31,7 @@ std::vector<std::array<int, 2>> sizes_of(const std::vector<ImageSpeed>& speeds) 
   return sizes;
 }
 
-/// What an image of a method costs, or nothing where it was not timed.
+/// Cost of an image of a method; empty if it was not timed.
 std::string speed_cell(const std::vector<ImageSpeed>& speeds, const std::string& method,
                        const std::array<int, 2>& size) {
   for (const ImageSpeed& speed : speeds)
@@ -82,15 +82,15 @@ std::string named(const MeasuredRow& row) {
   return markdown_cell(row.name) + (row.group.empty() ? "" : " (" + markdown_cell(row.group) + ")");
 }
 
-/// Number of a column as its differences count: the logarithm where its mean is geometric.
+/// Number of a column on the scale of its differences: the logarithm if its mean is geometric.
 double value_of(double number, const Finding& finding, const ImageTableConfig& config) {
   const auto column = std::ranges::find(config.columns, finding.column, &ShownColumn::column);
   return column->geometric ? std::log(number) : number;
 }
 
-/// Of two rows with several runs, how often their difference is the deviation that it has between single runs,
-/// √(s₁² + s₂²) with s² = Σ (mean of a run − mean of all)² / (runs − 1); of geometric columns by logarithms. None of
-/// single runs, or where all runs agree.
+/// Difference of two rows with several runs, in units of its standard deviation between single runs, √(s₁² + s₂²) with
+/// s² = Σ (mean of a run − mean of all)² / (runs − 1); by logarithms for geometric columns. Nothing for single runs, or
+/// if all runs agree.
 std::optional<double> difference_in_deviations(const MethodScores& row, const MethodScores& against,
                                                const Finding& finding, const ImageTableConfig& config) {
   if (row.runs == 1 || against.runs == 1) return std::nullopt;
@@ -105,7 +105,7 @@ std::optional<double> difference_in_deviations(const MethodScores& row, const Me
   return std::abs(mean_of(row) - mean_of(against)) / deviation;
 }
 
-/// Means of a finding's row and of its variants: the smallest and the largest.
+/// Smallest and largest mean among a finding's row and its variants.
 std::pair<double, double> spread_of(const Finding& finding, const std::vector<MethodScores>& rows) {
   std::vector<double> means;
   for (const MethodScores& row : rows)
@@ -115,9 +115,9 @@ std::pair<double, double> spread_of(const Finding& finding, const std::vector<Me
   return {low, high};
 }
 
-/// `- <region>, <column>: <row> 0.62 times <row>: <what that means>`
+/// Sentence `- <region>, <column>: <row> 0.62 times <row>: <meaning>`.
 std::string sentence(const Finding& finding, const std::vector<MethodScores>& rows, const ImageTableConfig& config) {
-  constexpr double kClear = 2.0;  // deviations
+  constexpr double kClear = 2.0;  // standard deviations
   const MethodScores &row = row_in(rows, finding.row), &against = row_in(rows, finding.against);
   const double mean = row.cell(finding.region, finding.column).mean,
                other = against.cell(finding.region, finding.column).mean, ratio = mean / other;
@@ -143,9 +143,9 @@ std::string sentence(const Finding& finding, const std::vector<MethodScores>& ro
   return text + (*deviations < kClear ? "not clear." : meaning) + "\n";
 }
 
-/// How many runs the rows have where they have several.
+/// Number of runs of the rows that have several.
 std::string of_runs(const std::vector<MethodScores>& rows) {
-  std::vector<std::string> named;  // rows of one name in several groups once
+  std::vector<std::string> named;  // names already listed, for rows of one name in several groups
   for (const MethodScores& row : rows) {
     const std::string name = fmt::format("{} {}", markdown_cell(row.row.name), row.runs);
     if (row.runs > 1 && std::ranges::find(named, name) == named.end()) named.push_back(name);
@@ -163,7 +163,7 @@ std::string to_markdown(const std::vector<MethodScores>& rows, const ImageTableC
     if (!speeds.empty() && row.row.timed_as != row.row.method &&
         std::ranges::none_of(speeds, [&](const auto& s) { return s.method == row.row.timed_as; }))
       throw DataError("no speed was measured of {}, as which '{}' is timed", row.row.timed_as, row.row.name);
-  for (const ShownRegion& region : config.regions)  // an image's cost is that of all regions
+  for (const ShownRegion& region : config.regions)  // the cost of an image applies to all regions
     text +=
         region_table(region, rows, config, &region == &config.regions.front() ? speeds : std::vector<ImageSpeed>{}) +
         "\n";

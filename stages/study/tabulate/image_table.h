@@ -1,4 +1,4 @@
-// The rows as text: Markdown for people, CSV for programs.
+// Writes the rows as Markdown for people and as CSV for programs.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace tacipc {
 
-/// A table per region: a row per method, mean ± standard deviation, or geometric mean ×÷ factor; a line above the first
-/// row of each group; printed means last, in the table of their region alone. `speeds`: of the rows' methods where they
-/// were measured, a last column of the first table for each size of image. Then the caption, the findings and the
-/// sheets. Characters that Markdown takes for a cell's end are escaped.
+/// Markdown with a table per region and a row per method: mean ± standard deviation, or geometric mean ×÷ factor. A
+/// line precedes the first row of each group; printed means come last, only in the table of their region. Then follow
+/// the caption, the findings and the sheets. Characters that would end a Markdown cell are escaped.
+/// \param speeds measured speeds of the rows' methods: a last column of the first table for each image size
 std::string to_markdown(const std::vector<MethodScores>& rows, const ImageTableConfig& config,
                         const std::vector<ImageSpeed>& speeds = {});
 
-/// One line per number: `row,group,region,column,images,runs,mean,std,source`; std is over the runs if there are
-/// several, else over the images. Measured numbers are in the shortest form that reads back to the same bits and have
-/// no source; printed ones have no number of images or runs and no deviation.
+/// CSV with one line per number: `row,group,region,column,images,runs,mean,std,source`. std is over the runs if there
+/// are several, otherwise over the images. Measured numbers have the shortest form that reads back to the same bits,
+/// and no source; printed ones have no number of images or runs and no deviation.
 std::string to_csv(const std::vector<MethodScores>& rows, const ImageTableConfig& config);
 
 }  // namespace tacipc

@@ -28,7 +28,7 @@ PrintedRows read_printed(ConfigReader in, const ImageTableConfig& config) {
     PrintedRow row{.name = item.text("name"), .values = {}};
     ConfigReader values = item.section("values");
     for (const std::string& column : values.keys()) {
-      values.number(column);  // a fault unless it is one; the text keeps its digits
+      values.number(column);  // checks that it is a number; the text keeps its digits
       row.values.emplace_back(column, values.text(column));
       must_be_one_of(values, column, column, config.columns, &ShownColumn::column, "columns");
     }

@@ -60,7 +60,7 @@ const std::map<std::string, Flags> kFlags{{"images", {{"--samples"}, {"--picture
                                           {"costs", {{"--timings"}, {}}},
                                           {"card", {{}, {"--identified", "--compared"}}}};
 
-/// \throw UsageError if a flag is missing that this kind of table needs, or one is given that it has no use for
+/// \throw UsageError if a flag that this kind of table needs is missing, or a flag is given that it does not use
 void check_flags(const Stage& stage, const std::string& kind) {
   const Flags& flags = kFlags.at(kind);
   for (const auto& [flag, help, required, many, named] : kTabulate.inputs) {
@@ -80,7 +80,7 @@ void make(Stage& stage, const ImageTableConfig& config) {
     write_png(stage.output(in_folder(config.link_folder, sheet.name + ".png")), picture_sheet(pictures, sheet));
   }
   const auto file = stage.optional_input("--speeds");
-  // No two runs agree in times.
+  // Times differ from run to run.
   const auto page = file ? stage.varying_output("table.md") : stage.output("table.md");
   write_file(page, to_markdown(rows, config, file ? read_image_speeds(*file) : std::vector<ImageSpeed>{}));
   write_file(stage.output("table.csv"), to_csv(rows, config));
@@ -100,7 +100,7 @@ void make(Stage& stage, const ComparisonConfig& config) {
 
 void make(Stage& stage, const MeshTableConfig& config) {
   const auto families = read_costs(stage.named_inputs("--records"), config);
-  // No two runs agree in times.
+  // Times differ from run to run.
   write_file(stage.varying_output("table.md"), to_markdown(families, config));
   write_file(stage.varying_output("table.csv"), to_csv(families));
   write_file(stage.output(in_folder(config.link_folder, kMeshPlot)), error_svg(families, config));

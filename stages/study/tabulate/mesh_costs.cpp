@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The records of one stage of one mesh. \throw DataError if there are none
+/// Records of one stage of one mesh. \throw DataError if there are none
 std::vector<fs::path> records_of(const std::vector<NamedPath>& records, const std::string& mesh,
                                  const std::string& stage) {
   std::vector<fs::path> out;
@@ -35,7 +35,7 @@ Record only_summary(const std::vector<NamedPath>& records, const std::string& me
   return Record::from_file(found.front()).section("summary");
 }
 
-/// Processor seconds of the runs that left these records, their mean; and the largest memory of any.
+/// Mean processor seconds of the runs that left these records, and the largest memory of any.
 StageTimings mean_timings(const std::vector<fs::path>& records) {
   StageTimings mean;
   std::vector<double> seconds;
@@ -69,7 +69,7 @@ std::string times(double ratio) {
   return ratio < 1.0 ? fmt::format("{:.1f} times more", 1.0 / ratio) : fmt::format("{:.1f} times fewer", ratio);
 }
 
-/// What each mesh of one family would take of another's vertices.
+/// Number of vertices of the other family at the error of each mesh of `family`, as text.
 std::string comparison(const FamilyCost& family, const FamilyCost& other) {
   std::string text;
   for (const MeshCost& mesh : family.meshes) {

@@ -27,7 +27,7 @@ std::vector<std::string> sorted(std::vector<std::string> names) {
 MethodScores read_run(const fs::path& table, const MeasuredRow& row, const std::vector<ShownRegion>& regions,
                       const std::vector<ShownColumn>& columns, const std::set<std::string>& uncounted) {
   MethodScores scores{.row = row, .images = {}, .cells = {}};
-  std::map<std::string, std::vector<std::string>> images;  // by region
+  std::map<std::string, std::vector<std::string>> images;  // image names by region
   CsvReader csv(table);
   while (csv.next()) {
     const std::string& region = csv["region"];
@@ -56,7 +56,7 @@ MethodScores read_run(const fs::path& table, const MeasuredRow& row, const std::
   return scores;
 }
 
-/// Means over the images of each run, and of each image over the runs.
+/// Means over the images for each run, and over the runs for each image.
 MethodScores read_method(const std::vector<fs::path>& tables, const MeasuredRow& row,
                          const std::vector<ShownRegion>& regions, const std::vector<ShownColumn>& columns,
                          const std::set<std::string>& uncounted) {
@@ -88,7 +88,7 @@ MethodScores read_method(const std::vector<fs::path>& tables, const MeasuredRow&
   return scores;
 }
 
-/// Which images one of two lists has and the other has not, for a message.
+/// Images in one of two lists but not in the other, for a message.
 std::string difference(const std::vector<std::string>& a, const std::vector<std::string>& b) {
   std::vector<std::string> only;
   std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(only));

@@ -20,7 +20,7 @@ cv::Mat view(const ByteImage& image) {
   return cv::Mat(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.pixels.data()));
 }
 
-/// A picture, cropped and scaled.
+/// Reads a picture, cropped and scaled.
 cv::Mat picture(const fs::path& path, const SheetConfig& config) {
   ByteImage image = read_png(path, 3);
   cv::Mat whole = view(image);
@@ -38,7 +38,7 @@ cv::Mat picture(const fs::path& path, const SheetConfig& config) {
   return scaled;
 }
 
-/// Words in black on white, `width` pixels wide and high as a heading; smaller where they would not fit.
+/// Text in black on white, `width` pixels wide and as high as a heading; smaller if it would not fit.
 cv::Mat words(const std::string& text, int width) {
   std::string ascii;
   for (const char c : text) {
@@ -58,7 +58,7 @@ cv::Mat words(const std::string& text, int width) {
 
 constexpr int kBorderPx = 20, kComparedColumns = 4;
 
-/// The contact box and its border, as far as the image goes.
+/// The contact box and its margin, limited to the image.
 cv::Rect window_of(const ComparedPicture& row) {
   const auto& [x, y, w, h] = row.box_px;
   return cv::Rect(x - kBorderPx, y - kBorderPx, w + 2 * kBorderPx, h + 2 * kBorderPx) &

@@ -1,4 +1,4 @@
-// Pictures of several methods side by side, a row per image.
+// Puts pictures of several methods next to each other, a row per image.
 #pragma once
 
 #include <array>
@@ -13,21 +13,21 @@
 
 namespace tacipc {
 
-/// The pictures of a method, in the order given.
+/// Pictures of a method, in the given order.
 std::vector<std::filesystem::path> pictures_of(const std::vector<NamedPath>& pictures, const std::string& method);
 
-/// The pictures of each column, in the order they were given by the name of its method. Those of methods that are no
-/// column are left out: another sheet may show them.
+/// Pictures of each column, in the order in which they were given for its method. Methods without a column are left
+/// out, because another sheet may show them.
 /// \throw DataError if columns have different numbers of pictures, or none
 std::vector<std::vector<std::filesystem::path>> pictures_of_columns(const std::vector<NamedPath>& pictures,
                                                                     const SheetConfig& config);
 
-/// Cropped, scaled to `picture_px` wide, white between; headings above the columns (characters outside ASCII as '?'),
-/// and each row's name, the file's, at its left edge. \throw DataError if a picture cannot be read or the crop leaves
-/// it
+/// The sheet: pictures cropped, scaled to `picture_px` wide, white between them. Headings stand above the columns
+/// (characters outside ASCII as '?'), and each row's file name at its left edge.
+/// \throw DataError if a picture cannot be read or the crop leaves it
 ByteImage picture_sheet(const std::vector<std::vector<std::filesystem::path>>& columns, const SheetConfig& config);
 
-/// A photograph, what two methods make of it, and where the contact is. Images of equal size.
+/// A photograph, the images of two methods, and the contact box. All images have equal size.
 struct ComparedPicture {
   ByteImage real;
   ByteImage ours;
@@ -36,13 +36,13 @@ struct ComparedPicture {
 };
 
 /// Pictures of the methods `photograph`, `ours` and `rival`, each in the order of the benchmark's images.
-/// \throw UsageError if a method has not one of each image; DataError if one is not of its photograph's size, or a
-/// contact box leaves it
+/// \throw UsageError if a method lacks an image or has one twice
+/// \throw DataError if a picture's size differs from its photograph, or a contact box leaves it
 std::vector<ComparedPicture> compared_pictures(const std::vector<NamedPath>& pictures, const std::string& ours,
                                                const std::string& rival, const BenchmarkCases& cases);
 
-/// Columns: photograph, ours, twice their difference about grey, the rival; each the contact box with 20 pixels around
-/// it, as far as the image goes. White between.
+/// Sheet with the columns photograph, TacIPC, twice their difference around grey, other simulator. Each shows the
+/// contact box and up to 20 pixels around it, with white between.
 ByteImage difference_sheet(const std::vector<ComparedPicture>& rows);
 
 }  // namespace tacipc

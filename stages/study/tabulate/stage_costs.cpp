@@ -13,8 +13,8 @@
 namespace tacipc {
 namespace {
 
-/// Whether a folder on the path below `root` has this name, or ends with it after a hyphen (`mctac-adaptive_0100um`).
-/// \pre the path begins with `root`, as of common_folder
+/// True if a folder on the path below `root` has this name, or ends with it after a hyphen (`mctac-adaptive_0100um`).
+/// \pre the path begins with `root`, as for common_folder
 bool lies_in(const std::filesystem::path& path, const std::string& folder, const std::filesystem::path& root) {
   const std::filesystem::path folders = path.parent_path();
   const auto below = std::next(folders.begin(), std::distance(root.begin(), root.end()));
@@ -43,7 +43,7 @@ StageCostsConfig StageCostsConfig::read(ConfigReader& in) {
 }
 
 std::vector<Cost> costs_of(const std::vector<std::filesystem::path>& timings, const StageCostsConfig& config) {
-  // One stage and object lies in several folders; a folder that everything lies in tells nothing apart.
+  // Results of one stage and object lie in several folders; their common folder distinguishes nothing.
   const std::filesystem::path root = common_folder(timings);
   std::vector<StageTimings> read;
   for (const auto& file : timings) read.push_back(read_timings(file));

@@ -10,7 +10,7 @@
 namespace tacipc {
 namespace {
 
-/// Cell of [low, high] in which a value lies, of `cells` equal ones; the upper end belongs to the last.
+/// Cell that contains a value, among `cells` equal ones of [low, high]; the upper end belongs to the last cell.
 int cell_of(double value, double low, double high, int cells) {
   return std::clamp(static_cast<int>(std::floor((value - low) / (high - low) * cells)), 0, cells - 1);
 }
@@ -65,7 +65,7 @@ Histogram histogram(const std::vector<std::vector<double>>& groups, int max_bins
   const int bins = result.num_bins();
   for (const auto& group : groups) {
     auto& counts = result.counts.emplace_back(static_cast<std::size_t>(bins), 0);
-    // A value that misses its edge by rounding alone counts as being on it.
+    // A value that misses an edge only by rounding counts as on it.
     const double slack = 1e-9 * result.bins.step;
     for (const double value : group)
       ++counts[static_cast<std::size_t>(cell_of(value + slack, result.bins.low, result.bins.high, bins))];

@@ -13,7 +13,7 @@ namespace tacipc {
 namespace {
 
 constexpr int kBins = 24, kColumns = 60, kRows = 42;
-/// More rows than these are in the table only.
+/// Limit of drawn rows; further rows are only in the table.
 constexpr std::size_t kDrawnRows = 24;
 
 constexpr const char* kHowToRead =
@@ -25,7 +25,7 @@ std::string capital(std::string words) {
   return words;
 }
 
-/// Train before validation before test, as far as there are any.
+/// Names of existing splits: train, validation, test.
 std::vector<std::string> split_names(const std::map<std::string, std::vector<double>>& values) {
   std::vector<std::string> names;
   for (const char* name : {"train", "val", "test"})
@@ -76,7 +76,7 @@ std::vector<std::pair<std::string, Spread>> spreads_by(const DatasetTally& tally
   return rows;
 }
 
-/// One row per object, a median with the inner nine tenths per quantity.
+/// Table with one row per object, and for each quantity the median and the inner nine tenths.
 std::string objects_table(const DatasetTally& tally) {
   std::map<std::string, std::vector<std::string>> cells;
   for (std::size_t q = 0; q < kQuantities.size(); ++q) {
@@ -99,7 +99,7 @@ std::string objects_table(const DatasetTally& tally) {
   return table + "</tbody></table></div></details>\n";
 }
 
-/// A drawing per quantity with a row per word of the column; none where there are too many words to draw.
+/// Drawing per quantity with a row per word of the column; none if there are too many words to draw.
 std::string spreads_figures(const DatasetTally& tally, const std::string& column) {
   std::string html;
   for (std::size_t q = 0; q < kQuantities.size(); ++q) {

@@ -14,14 +14,14 @@ namespace {
 
 constexpr double kLeft = Drawing::kLeft, kRight = Drawing::kRight, kTop = Drawing::kTop, kBottom = Drawing::kBottom;
 
-/// Ticks for counts: whole numbers.
+/// Axis with ticks at whole numbers, for counts.
 Axis count_axis(std::size_t largest) {
   Axis axis = round_axis(0.0, static_cast<double>(std::max<std::size_t>(largest, 1)), Drawing::kMaxTicks);
   if (axis.step < 1.0) axis = {.low = 0.0, .high = std::ceil(axis.high), .step = 1.0, .decimals = 0};
   return axis;
 }
 
-/// Few ticks over the bins' whole stretch, at edges of bins.
+/// Axis with few ticks over all bins, at edges of bins.
 Axis tick_axis(const Axis& bins) {
   Axis axis = bins;
   const int steps = bins.num_ticks() - 1;
@@ -97,7 +97,7 @@ std::string spreads_svg(const std::vector<std::pair<std::string, Spread>>& rows,
     const auto& [name, spread] = rows[i];
     const auto at = [&](double value) { return x.place(value).value(); };
     const double y = kFirst + kRow * (static_cast<double>(i) + 0.5);
-    // Names that are too long for their column would run out of the drawing.
+    // Names that are too long for their column are shortened.
     constexpr std::size_t kLetters = 15;
     const std::string shown = name.size() > kLetters ? name.substr(0, kLetters - 1) + "…" : name;
     svg += fmt::format("<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{}<title>{}</title></text>\n", kNames - 8,

@@ -1,4 +1,4 @@
-// What a dataset is made of: gels, motions, settings and limits, as its plan and the records of its samples tell.
+// Facts about a dataset: gels, motions, settings and limits, from its plan and the records of its samples.
 #pragma once
 
 #include <filesystem>
@@ -13,31 +13,33 @@
 
 namespace tacipc {
 
-/// A sensor and the mesh of its gel, in words. What the record of an older version does not have is left out.
+/// Description of a sensor and the mesh of its gel. Facts that an older record lacks are left out.
 struct GelFacts {
   std::vector<std::pair<std::string, std::string>> lines;   // name and value
-  std::vector<std::pair<std::string, std::string>> checks;  // of the verdict, with their limits
+  std::vector<std::pair<std::string, std::string>> checks;  // checks of the verdict, with their limits
 };
 
-/// From a made sample: its sensor, gel and images.
+/// Reads the sensor, gel and images of a made sample.
 GelFacts read_gel_facts(const std::filesystem::path& sample_folder);
 
+/// Description of a motion.
 struct MotionFacts {
   std::string name;
-  std::string words;      // what is asked for, with ranges
-  std::string placement;  // where the object stands
+  std::string words;      // requested motion, with ranges
+  std::string placement;  // placement of the object
 };
 
+/// Facts that all pages of a dataset share.
 struct DatasetFacts {
   std::string name;
   std::optional<std::string> seed;
   std::string sampling;
   std::vector<MotionFacts> motions;
-  std::map<std::string, GelFacts> gels;  // by sensor-mesh; those of which a sample is made
-  bool packed = false;                   // pack/ is there
+  std::map<std::string, GelFacts> gels;  // key: sensor-mesh; only gels with a made sample
+  bool packed = false;                   // the folder pack/ exists
 };
 
-/// What dataset.yaml says.
+/// Reads the facts in dataset.yaml.
 DatasetFacts read_dataset_facts(const std::string& name, const std::filesystem::path& dataset_yaml);
 
 }  // namespace tacipc

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Rows of the plan that are read side by side.
+/// Rows of the plan that are read in parallel.
 constexpr std::size_t kBlock = 256;
 
 /// Calls `use` for every block of the plan's rows, with the index of the first.
@@ -58,8 +58,8 @@ std::vector<SampleState> read_states(const fs::path& plan, const fs::path& datas
   return states;
 }
 
-/// Positions in the plan of the samples that get a page, ascending: of the made ones those that still have images, if
-/// there are any.
+/// Positions in the plan of the samples that get a page, ascending. Among the made ones those that still have images
+/// are preferred.
 std::vector<std::size_t> chosen_samples(const std::vector<SampleState>& states, const DatasetReportConfig& config) {
   std::vector<std::size_t> made, dropped, failed, chosen;
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -86,7 +86,7 @@ std::vector<PlannedRow> rows_at(const fs::path& plan, const std::vector<std::siz
   return rows;
 }
 
-/// Times of a stage in folders of the dataset: dataset/<folder>/<any>/<below>/<stage>.timings.yaml.
+/// Cost of a stage from timings in the dataset: dataset/<folder>/<any>/<below>/<stage>.timings.yaml.
 OtherCost other_cost(const fs::path& dataset, const std::string& stage, const std::string& folder,
                      const std::string& below) {
   OtherCost cost{.stage = stage, .costs = {}};
@@ -106,7 +106,7 @@ std::vector<OtherCost> other_costs(const fs::path& dataset) {
           other_cost(dataset, "pack", "shards", "")};
 }
 
-/// Writes the pages of the chosen samples, some side by side, and tells what others show of them.
+/// Writes the pages of the chosen samples, some in parallel. \return their entries for other pages
 std::vector<SampleShot> write_sample_pages(Stage& stage, const fs::path& dataset, const std::string& name,
                                            const DatasetReportConfig& config, const std::vector<PlannedRow>& chosen) {
   constexpr std::size_t kSideBySide = 16;

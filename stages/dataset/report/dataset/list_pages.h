@@ -1,4 +1,4 @@
-// The list of all samples, over as many pages as it takes, and the contact sheets.
+// Writes the list of all samples, over as many pages as needed, and the contact sheets.
 #pragma once
 
 #include <cstddef>
@@ -12,15 +12,16 @@
 
 namespace tacipc {
 
-/// Takes rows one by one and gives a page away as soon as it is full, so that only one is in memory.
+/// Takes rows one by one and writes a page as soon as it is full, so that only one page is in memory.
 class ListPages {
  public:
   using Write = std::function<void(const std::string& name, const std::string& html)>;
-  /// `samples` is how many rows will come; those in `with_page` are linked.
+  /// \param samples number of rows to come
+  /// \param with_page samples that are linked
   ListPages(std::string dataset, std::size_t samples, std::size_t rows_per_page, std::set<std::string> with_page,
             Write write);
   void add(const SampleRow& row);
-  /// Writes the rest. \pre all rows have come
+  /// Writes the last page. \pre all rows were added
   void finish();
 
  private:
@@ -34,10 +35,10 @@ class ListPages {
   std::string table_;
 };
 
-/// How many pages of so many each; at least one.
+/// Number of pages for `per_page` items each; at least one.
 std::size_t pages_of(std::size_t items, std::size_t per_page);
 
-/// One contact sheet.
+/// Page with one contact sheet.
 std::string sheet_page(const std::string& dataset, const std::vector<SampleShot>& shots, std::size_t page,
                        std::size_t per_page);
 

@@ -24,7 +24,7 @@ std::string tiles(const DatasetTally& tally) {
   return html + "</ul>\n";
 }
 
-/// How far it is, and what is gone or packed.
+/// Progress of the dataset, and removed or packed files.
 std::string state(const Overview& o) {
   const StatusCounts& all = o.tally.all;
   std::string html;

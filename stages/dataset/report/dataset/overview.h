@@ -1,4 +1,4 @@
-// The first page of a dataset: what is in it, how it is spread, what failed, what it cost, what its checks prove.
+// Writes the first page of a dataset: contents, distributions, failures, costs, and the meaning of its checks.
 #pragma once
 
 #include <filesystem>
@@ -11,24 +11,25 @@
 
 namespace tacipc {
 
-/// Costs of what is not a sample: gels, objects, shards.
+/// Costs of everything but samples: gels, objects, shards.
 struct OtherCost {
   std::string stage;
   CostColumn costs;
 };
 
+/// Inputs of the first page.
 struct Overview {
   const DatasetFacts& facts;
   const DatasetTally& tally;
   const std::vector<OtherCost>& others;
   const std::vector<SampleShot>& shots;  // samples that have pages
-  std::filesystem::path dataset;         // its folder
-  std::filesystem::path folder;          // where the page will lie
+  std::filesystem::path dataset;         // folder of the dataset
+  std::filesystem::path folder;          // final folder of the page
 };
 
 std::string overview_page(const Overview& overview);
 
-/// Parts of it, for a file each: the plots; counts, failures, and seconds and memory as tables.
+/// Parts of the page, for a file each: the plots; counts, failures, and seconds and memory as tables.
 std::string coverage_section(const DatasetTally& tally);
 std::string counts_section(const DatasetTally& tally);
 std::string failures_section(const Overview& overview);

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr int kQuality = 88;
 
-/// Puts a smaller copy in the place of a picture, and links the original among the data (not without a label).
+/// Replaces pictures by smaller copies, and links the originals among the data if they have a label.
 class PictureCopies {
  public:
   PictureCopies(SamplePage& page, SampleReport& sample, const fs::path& folder, int picture_px)
@@ -34,7 +34,7 @@ class PictureCopies {
     if (!label.empty()) sample_.data.emplace_back(label, picture);
     picture = folder_ / picture_name(page_.shot.plan.id, name);
   }
-  /// Width and height of the copy.
+  /// Adds a copy. \return its width and height
   std::pair<int, int> add(const ByteImage& image, const std::string& name, int largest_px) {
     const ByteImage copy =
         std::max(image.width, image.height) > largest_px ? fitted_picture(image, largest_px, largest_px) : image;
@@ -60,7 +60,7 @@ void copy_pictures(SamplePage& page, SampleReport& sample, const fs::path& folde
   copies.take(images.tactile, "tactile", field_of(FrameFile::tactile).file);
   copies.take(images.no_contact, "no_contact", field_of(FrameFile::tactile).file + " without contact");
   if (images.markers) copies.take(*images.markers, "markers", field_of(FrameFile::marker).file);
-  // A map that has no preview is among the data already.
+  // A map without preview is already among the data.
   if (images.indentation) copies.take(*images.indentation, "indentation", label_of_preview(*images.indentation));
   if (images.normal) copies.take(*images.normal, "normal", label_of_preview(*images.normal));
   for (PhaseImage& image : sample.phase_images) {
@@ -80,7 +80,7 @@ std::string planned_facts(const PlannedRow& plan) {
   return html + "</p>\n";
 }
 
-/// Labels and curves of the grasp, with both fingers' images in rows where they are there.
+/// Labels and curves of the grasp, with rows of both fingers' images if they exist.
 std::string grasp_of_finger(SamplePage& page, const fs::path& finger, const fs::path& folder) {
   constexpr const char* kStrip = "grasp";
   const fs::path grasp_folder = finger.parent_path();
@@ -94,7 +94,7 @@ std::string grasp_of_finger(SamplePage& page, const fs::path& finger, const fs::
     page.pictures.emplace_back(file, jpeg_bytes(image, kQuality, file));
     strip = html_link(folder / file, folder / "samples");
   } catch (const DataError&) {
-    // Its images were dropped, or those of the other finger are not made yet.
+    // The images of this finger were dropped, or those of the other one are not made yet.
   }
   return grasp_article(grasp, finger.filename() == "right" ? 1 : 0, strip);
 }

@@ -1,4 +1,4 @@
-// A sample's own page, with small copies of its pictures, so that the pages can be given away without the samples.
+// Page of a single sample, with small copies of its pictures, so that the pages can be published without the samples.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +11,14 @@
 
 namespace tacipc {
 
+/// A sample's page and the pictures that it links.
 struct SamplePage {
   SampleShot shot;
-  std::vector<std::pair<std::string, std::string>> pictures;  // name below the pages' folder, JPEG
+  std::vector<std::pair<std::string, std::string>> pictures;  // JPEG pictures, by names below the pages' folder
   std::string body;                                           // HTML
 };
 
-/// Reads and judges the sample. `folder` is where the first page will lie.
+/// Reads and judges the sample. `folder` is the final folder of the first page.
 SamplePage make_sample_page(const PlannedRow& plan, const std::filesystem::path& dataset,
                             const std::filesystem::path& folder, const DatasetReportConfig& config);
 

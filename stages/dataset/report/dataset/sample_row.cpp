@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a force near zero the ratio is noise.
+/// The ratio is noise for a force near zero.
 std::optional<double> largest_shear_ratio(const std::vector<FrameReport>& frames) {
   double largest_n = 0.0;
   for (const FrameReport& frame : frames) largest_n = std::max(largest_n, frame.press_force_n);
@@ -26,7 +26,7 @@ std::optional<double> largest_shear_ratio(const std::vector<FrameReport>& frames
   return ratio;
 }
 
-/// From the poses; where those were dropped, what was asked for.
+/// Rotation from the poses; if these were dropped, the requested one.
 std::optional<double> largest_turn_deg(const fs::path& press_folder, const Record& press) {
   const PressFolder arrays(press_folder);
   if (arrays.has(PressArray::object_pose)) {
@@ -96,13 +96,13 @@ SampleRow read_row(const PlannedRow& plan, const fs::path& dataset, SampleStatus
 }
 
 double turn_about_z_deg(const Matrix4& first, const Matrix4& second) {
-  // Entry (i, j) of second × firstᵀ, of the 3 × 3 turns.
+  // Entry (i, j) of second × firstᵀ, of the 3 × 3 rotations.
   const auto entry = [&](int i, int j) {
     double sum = 0.0;
     for (int k = 0; k < 3; ++k) sum += second(i, k) * first(j, k);
     return sum;
   };
-  constexpr double kNothingDeg = 1e-9;  // rounding of a motion that does not turn
+  constexpr double kNothingDeg = 1e-9;  // rounding of a motion without rotation
   const double turn = std::atan2(entry(1, 0) - entry(0, 1), entry(0, 0) + entry(1, 1)) * 180.0 / std::numbers::pi;
   return std::abs(turn) < kNothingDeg ? 0.0 : turn;
 }

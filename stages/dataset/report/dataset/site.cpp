@@ -11,7 +11,7 @@
 namespace tacipc {
 namespace {
 
-/// A name as a link writes it.
+/// Name in the form of a link.
 std::string linked(const std::string& name) { return html_link(name, "."); }
 
 }  // namespace

@@ -7,9 +7,9 @@
 namespace tacipc {
 namespace {
 
-constexpr int kSamples = 3;              // of a pixel, along each side
-constexpr double kNear = 0.02;           // of the distance to the target
-constexpr double kPictureMargin = 1.04;  // of the picture around what it shows
+constexpr int kSamples = 3;              // samples per pixel along each side
+constexpr double kNear = 0.02;           // fraction of the distance to the target
+constexpr double kPictureMargin = 1.04;  // size of the picture over that of its content
 
 }  // namespace
 
@@ -24,8 +24,9 @@ Viewpoint viewpoint_of(const std::vector<Vector3>& points, const Vector3& back, 
     high = high.cwiseMax(p);
   }
   view.target_m = 0.5 * (low + high);
-  const double wide = view.zoom / aspect;  // what x is multiplied by, so that the picture's sides are at ±1
-  // Near points look larger: moved so that both sides have as much room, it can be nearer, which changes that a little.
+  const double wide = view.zoom / aspect;  // factor on x that puts the picture's sides at ±1
+  // Near points look larger. Centring the view allows a nearer camera, which changes the centre slightly, so this
+  // repeats.
   constexpr int kRounds = 8;
   for (int round = 0; round < kRounds; ++round) {
     view.distance_m = 1e-6;
@@ -60,7 +61,8 @@ const Raster::Fragment& Raster::at(int x, int y) const {
 }
 
 void Raster::draw(const TriangleMesh& mesh, const Matrix4& world_from_mesh, const Color& color, int body) {
-  const Vector3 light = Vector3(-0.45, 0.75, 0.6).normalized();  // in the camera's axes: from above on the left
+  const Vector3 light =
+      Vector3(-0.45, 0.75, 0.6).normalized();  // direction in the camera's axes: from above on the left
   Matrix3 axes;
   axes << from_.right.transpose(), from_.up.transpose(), from_.back.transpose();
   const Vector3 eye = from_.target_m + from_.distance_m * from_.back;
@@ -77,12 +79,12 @@ void Raster::draw(const TriangleMesh& mesh, const Matrix4& world_from_mesh, cons
     Vector3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     if (normal.norm() < 1e-18) continue;
     normal.normalize();
-    if (normal.dot(corners[0]) > 0.0) normal = -normal;  // both sides of an open surface are seen
+    if (normal.dot(corners[0]) > 0.0) normal = -normal;  // both sides of an open surface are visible
     const double shade = 0.68 + 0.34 * std::max(0.0, normal.dot(light)) + 0.06 * normal.z();
     Fragment surface{.body = body, .normal = normal.cast<float>()};
     for (int c = 0; c < 3; ++c)
       surface.color[c] = static_cast<float>(std::min(255.0, shade * color[static_cast<std::size_t>(c)]));
-    // The part in front of the eye, of three or four corners.
+    // Part of the triangle in front of the eye, with three or four corners.
     std::vector<Vector3> kept;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vector3 &a = corners[i], &b = corners[(i + 1) % 3];
@@ -128,7 +130,7 @@ bool Raster::line_between(const Fragment& a, const Fragment& b) const {
   if (a.body != b.body) return true;
   if (a.body < 0) return false;
   constexpr float kEdge = 0.8f;     // cosine: facets of round shapes stay smooth
-  constexpr double kBehind = 0.03;  // one part of a body in front of another
+  constexpr double kBehind = 0.03;  // relative depth step between one part of a body and another behind it
   return a.normal.dot(b.normal) < kEdge ||
          std::abs(a.nearness - b.nearness) > kBehind * std::max(a.nearness, b.nearness);
 }
@@ -139,7 +141,7 @@ ByteImage Raster::picture() const {
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
       const Fragment& here = at(x, y);
-      // Half of a line lies on each side, but none on the paper.
+      // Half of a line lies on each side of an edge, but none on the background.
       const bool line =
           here.body >= 0 &&
           ((x > 0 && line_between(here, at(x - 1, y))) || (x + 1 < width_ && line_between(here, at(x + 1, y))) ||

@@ -40,7 +40,8 @@ std::vector<Vector3> corners_of(const ViewedObject& object) {
   return points;
 }
 
-/// What the pictures are to hold: gels, what moves freely, and what else is close to them and not large.
+/// Points that the pictures must contain: gels, freely moving bodies, and other bodies that are near them and not
+/// large.
 std::vector<Vector3> points_of_interest(const SceneView& view) {
   std::vector<Vector3> points;
   for (const ViewedGel& gel : view.gels) {
@@ -66,7 +67,7 @@ std::vector<Vector3> points_of_interest(const SceneView& view) {
       points.insert(points.end(), more.begin(), more.end());
     }
   };
-  // First what carries the gels and what bodies stand on, then what those hang on.
+  // First the supports of the gels and of the bodies, then the bodies attached to these.
   constexpr double kLargest = 2.0;
   const double size = box_of(points).sizes().maxCoeff();
   grow(kLargest * size);
@@ -74,7 +75,7 @@ std::vector<Vector3> points_of_interest(const SceneView& view) {
   return points;
 }
 
-/// Edges of a surface that one triangle alone has, in its direction.
+/// Edges that belong to a single triangle, in its direction.
 std::vector<std::pair<int, int>> rim_of(const Triangles& triangles) {
   std::map<std::pair<int, int>, std::pair<int, int>> open;
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
@@ -89,7 +90,7 @@ std::vector<std::pair<int, int>> rim_of(const Triangles& triangles) {
   return rim;
 }
 
-/// The front as it is in a frame, sides from its rim down to the mount, and there its back.
+/// Surface of a gel: its front in a frame, sides from the rim down to the mount, and the back there.
 TriangleMesh gel_surface(const ViewedGel& gel, std::size_t frame, const std::vector<std::pair<int, int>>& rim) {
   const Positions &now = gel.frames[frame].positions, &rest = gel.frames.front().positions;
   const Eigen::Index front = now.rows(), sides = static_cast<Eigen::Index>(rim.size());
@@ -146,11 +147,13 @@ std::vector<PicturedInstant> pictured_instants(const SceneView& view, std::optio
 }
 
 Viewpoint scene_viewpoint(const SceneView& view, double aspect) {
-  // Tangents: off the direction across, off the level. What a gel that looks down touches is seen from the side.
+  // Tangents of the angles away from the perpendicular direction and above the horizontal. A gel that looks down is
+  // seen from the side.
   constexpr double kAside = 0.3, kAbove = 0.3, kLow = 0.12, kDown = -0.5;
   const Vector3 front = view.gels.front().frames.front().world_from_gel.block<3, 1>(0, 2);
   Vector3 along(front.x(), front.y(), 0.0);
-  along = along.norm() > 0.3 ? along.normalized() : Vector3(Vector3::UnitX());  // a gel that looks down has no side
+  along = along.norm() > 0.3 ? along.normalized()
+                             : Vector3(Vector3::UnitX());  // a gel that looks down has no horizontal direction
   Vector3 across = Vector3::UnitZ().cross(along);
   if (across.y() > 0.0) across = -across;
   const Vector3 right = Vector3::UnitZ().cross(across);

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The same triangles, each from its lowest corner on, in ascending order: similar numbers follow each other.
+/// Same triangles, each starting from its lowest corner, in ascending order, so that neighbours have similar numbers.
 Triangles sorted_triangles(const Triangles& triangles) {
   std::vector<std::array<int, 3>> rows;
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
@@ -47,10 +47,10 @@ TriangleMesh ordered(const TriangleMesh& mesh) {
           renumbered(mesh.triangles, spatial_rank(mesh.positions))};
 }
 
-/// A part of a mesh's surface alone: which rows of the mesh its vertices are, and its triangles among these.
+/// Part of a mesh's surface: its vertices as rows of the mesh, and its triangles among these.
 struct Part {
   std::vector<int> order;  // rows of `vertices`
-  std::vector<int> rows;   // the same as rows of the mesh
+  std::vector<int> rows;   // the same vertices as rows of the mesh
   Triangles triangles;
 };
 
@@ -66,14 +66,14 @@ Part part_of(const TetMesh& mesh, const std::vector<int>& vertices, const Triang
   return part;
 }
 
-/// A gel whose press can be shown.
+/// Gel whose press can be shown.
 struct ShownGel {
   PressFolder press;
   Part front;
   double bottom_m;
 };
 
-/// The gel or object of a press, by its name among the record's inputs.
+/// Path of the gel or object of a press, by its name among the record's inputs.
 std::optional<fs::path> input_of(const fs::path& folder, const std::string& input) {
   std::string why;
   return pressed_input(folder, Record::from_file(folder / "press.yaml"), input, why);
@@ -106,7 +106,7 @@ ViewedFront read_frame(const ShownGel& gel, std::size_t frame, const Matrix4& wo
   return view;
 }
 
-/// The surface of a soft body, and its vertices in the view's frames.
+/// Surface of a soft body, with its vertices in the view's frames.
 ViewedObject soft_object(const SceneSoft& soft, const fs::path& path, std::size_t frames,
                          const std::vector<int>& shown) {
   const TetMesh tets = read_object_tet_mesh(path);
@@ -121,7 +121,7 @@ ViewedObject soft_object(const SceneSoft& soft, const fs::path& path, std::size_
 }
 
 /// \param gels in the order of the scene's
-/// \param bodies of the scene's objects, then of its soft bodies
+/// \param bodies meshes of the scene's objects, then of its soft bodies
 SceneView view_of(const SceneFolder& scene, const std::vector<ShownGel>& gels, const std::vector<fs::path>& bodies) {
   std::size_t vertices = 0;
   for (const ShownGel& gel : gels) vertices += gel.front.rows.size();
@@ -148,7 +148,7 @@ SceneView view_of(const SceneFolder& scene, const std::vector<ShownGel>& gels, c
   return view;
 }
 
-constexpr const char* kWorld = "world";  // MuJoCo's name of what does not move
+constexpr const char* kWorld = "world";  // MuJoCo's name of everything that does not move
 
 bool has_body(const SceneFolder& scene, const std::string& name) {
   const auto named = [&](const auto& body) { return body.name == name; };
@@ -156,10 +156,10 @@ bool has_body(const SceneFolder& scene, const std::string& name) {
          std::any_of(scene.soft.begin(), scene.soft.end(), named);
 }
 
-/// A body that carries a gel ends behind it: MuJoCo's pad, a shape of the body, lies where the gel is, which the view
-/// has itself. Vertices in the gel's place go back to its bottom.
+/// Makes room for a gel in the body that supports it. MuJoCo's pad, a shape of the body, occupies the gel's position,
+/// but the view draws the gel itself. Vertices inside the gel move back to its bottom.
 void make_room(TriangleMesh& shape, const Matrix4& gel_from_body, const ViewedGel& gel) {
-  constexpr double kInFront_m = 5e-4, kAround = 1.2;  // a pad may stand out, and be wider
+  constexpr double kInFront_m = 5e-4, kAround = 1.2;  // tolerances: a pad may protrude and be wider
   const Positions& front = gel.frames.front().positions;
   const Eigen::RowVector2d middle = 0.5 * (front.colwise().minCoeff() + front.colwise().maxCoeff()).leftCols<2>();
   const double radius = kAround * (front.leftCols<2>().rowwise() - middle).rowwise().norm().maxCoeff();
@@ -188,7 +188,7 @@ std::vector<int> viewed_frames(int frames, std::size_t front_vertices) {
 }
 
 Eigen::VectorXd vertex_pressures(const Positions& x, const Triangles& triangles, const Positions& normal_force_n) {
-  Positions area = Positions::Zero(x.rows(), 3);  // Σ of a third of each triangle's area vector
+  Positions area = Positions::Zero(x.rows(), 3);  // Σ of a third of each triangle's area vector, per vertex
   Eigen::VectorXd size = Eigen::VectorXd::Zero(x.rows());
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     const Vector3 a = x.row(triangles(t, 0)), b = x.row(triangles(t, 1)), c = x.row(triangles(t, 2));
@@ -253,7 +253,7 @@ void add_robot(SceneView& view, const RobotFolder& robot, const std::filesystem:
       const auto gel_from_body = [&](std::size_t f) -> Matrix4 {
         return gel.frames[f].world_from_gel.inverse() * object.world_from_object[f];
       };
-      constexpr double kStill = 1e-6;  // m; what carries the gel does not move as seen from it
+      constexpr double kStill = 1e-6;  // m; the body that supports a gel does not move relative to it
       const Matrix4 first = gel_from_body(0), last = gel_from_body(view.frames.size() - 1);
       if (object.robot && (last - first).cwiseAbs().maxCoeff() < kStill) make_room(object.mesh, first, gel);
     }

@@ -25,7 +25,7 @@ std::string deflated(const std::string& bytes) {
   return packed;
 }
 
-/// Four letters for three bytes, filled up with '='.   [RFC 4648]
+/// Base64: four letters for three bytes, padded with '='.   [RFC 4648]
 std::string base64(const std::string& bytes) {
   constexpr const char* kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -50,7 +50,7 @@ std::string packed_triangles(const Triangles& triangles) {
   return byte_planes(first) + byte_planes(second) + byte_planes(third);
 }
 
-/// `before` is the frame before, or null.
+/// \param before positions of the previous frame, or null
 std::string packed_positions(const Positions& x, const Positions* before, const ViewGrid& grid) {
   std::string bytes;
   for (int axis = 0; axis < 3; ++axis) {
@@ -65,7 +65,7 @@ std::string packed_positions(const Positions& x, const Positions* before, const 
   return bytes;
 }
 
-/// Not below a pascal, so that a press without contact has a bar too.
+/// Pressure of the colour bar's end, at least one pascal, so that a press without contact also has a bar.
 double top_pressure(const SceneView& view) {
   std::vector<double> pressures;
   for (const ViewedGel& gel : view.gels) {
@@ -79,7 +79,7 @@ double top_pressure(const SceneView& view) {
   return std::max(1.0, *at);
 }
 
-/// Of all frames, not below a micrometre.
+/// Deepest indentation of all frames, at least one micrometre.
 double deepest(const SceneView& view) {
   double depth = 1e-6;
   for (std::size_t f = 0; f < view.frames.size(); ++f) depth = std::max(depth, deepest_indentation(view, f));
