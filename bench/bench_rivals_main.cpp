@@ -61,7 +61,8 @@ ImageSpeed sized(const std::string& method, const Sensor& sensor) {
   return {.method = method, .width_px = sensor.camera.width_px, .height_px = sensor.camera.height_px};
 }
 
-/// Frames 1 … count of a press or a list of poses, repeated as needed. \pre count > 0
+/// Frames 1 … count of a press or a list of poses, repeated as needed.
+/// \pre count > 0
 std::vector<std::size_t> timed_frames(std::size_t count) {
   std::vector<std::size_t> frames;
   while (frames.size() < kLeastFrames)

@@ -18,7 +18,8 @@ struct RunName {
   std::string with_route(const std::string& other) const { return gel + "-" + object + "-" + motion + "-" + other; }
 };
 
-/// Splits a name. \throw DataError if the number of parts is wrong
+/// Splits a name.
+/// \throw DataError if the number of parts is wrong
 RunName parse_run_name(const std::string& name);
 
 /// Counts of one saved frame.
@@ -45,7 +46,8 @@ struct Run {
   int sum(int Frame::*count) const;
 };
 
-/// Reads a run. \throw DataError, ConfigError if the folder does not hold a finished press with its timings
+/// Reads a run.
+/// \throw DataError, ConfigError if the folder does not hold a finished press with its timings
 Run read_run(const std::filesystem::path& folder);
 
 /// Differences between two results of one scene.

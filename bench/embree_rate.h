@@ -14,7 +14,8 @@ struct EmbreeSeconds {
   double camera = 0.0;
   double shadow = 0.0;
 };
-/// Measures both loops. \pre repeats > 0
+/// Measures both loops.
+/// \pre repeats > 0
 EmbreeSeconds embree_seconds(const Positions& positions, const Triangles& triangles,
                              const std::vector<RayPacket>& camera, const std::vector<RayPacket>& shadow, int repeats);
 

@@ -1,4 +1,4 @@
-// The program tacipc, the front door to all others.
+// The program tacipc, which runs all other programs.
 #include "build_facts.h"
 #include "common/command/front_door.h"
 

@@ -33,7 +33,8 @@ struct SlidingRun : MarkerMotion {
   double max_balance_relative = 0.0, min_distance_m = 0.0, min_volume_ratio = 0.0;
 };
 
-/// Reads the outputs of the press stage. \throw DataError if nothing follows the press, or files do not fit together
+/// Reads the outputs of the press stage.
+/// \throw DataError if nothing follows the press, or files do not fit together
 SlidingRun read_sliding_run(const std::filesystem::path& press);
 
 /// Mean displacement length of the chosen markers, and the smoothness of that curve.
@@ -47,7 +48,8 @@ struct MarkerCurve {
   double ratio() const { return largest_first_m > 0.0 ? largest_second_m / largest_first_m : 0.0; }
 };
 
-/// Computes the curve. \throw DataError if no chosen marker exists, or fewer than three frames are settled
+/// Computes the curve.
+/// \throw DataError if no chosen marker exists, or fewer than three frames are settled
 MarkerCurve marker_curve(const SlidingRun& run, const MarkerCurveConfig& config);
 
 /// Parts of the results page: the curve, its differences, the table and the text. The plot of the curve also shows

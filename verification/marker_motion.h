@@ -48,7 +48,8 @@ MarkerMotion read_marker_motion(const std::filesystem::path& folder, const std::
 /// \throw DataError if nothing follows the press, the object does not move, or files do not fit together
 MarkerMotion read_other_motion(const std::filesystem::path& folder);
 
-/// Mean displacement length of the chosen markers, m, per frame. \throw DataError if none of them exists
+/// Mean displacement length of the chosen markers, m, per frame.
+/// \throw DataError if none of them exists
 std::vector<double> mean_displacements(const MarkerMotion& motion, const MarkerChoice& chosen);
 /// Mean displacement length that the chosen markers would have if they moved with the object, m, per frame.
 std::vector<double> mean_of_carried(const MarkerMotion& motion, const MarkerChoice& chosen);

@@ -38,10 +38,12 @@ double turned_rad(const Outcome& outcome, int frame);
 /// \throw UsageError for objects other than sphere, punch, plate and block
 double standoff_m(const Outcome& outcome, int frame);
 
-/// Value of a quantity in a frame. \throw UsageError for a name that is not in quantities()
+/// Value of a quantity in a frame.
+/// \throw UsageError for a name that is not in quantities()
 double measure(const Outcome& outcome, const std::string& quantity, int frame);
 
-/// Index of the selected frame. \throw DataError if the motion has no such frame
+/// Index of the selected frame.
+/// \throw DataError if the motion has no such frame
 int find_frame(const Outcome& outcome, const FrameChoice& choice);
 
 }  // namespace tacipc::verify

@@ -33,7 +33,8 @@ struct RefinementSpec {
   std::vector<RefinementStudy> studies;
 
   static RefinementSpec read(ConfigReader& in);
-  /// Study of a parameter. \throw UsageError, which lists the existing studies, if there is none
+  /// Study of a parameter.
+  /// \throw UsageError, which lists the existing studies, if there is none
   const RefinementStudy& study(const std::string& parameter) const;
 };
 
@@ -64,7 +65,8 @@ struct RefinementLevel {
   static std::optional<RefinementLevel> unpack(std::string_view bytes);
 };
 
-/// Runs the scene on one level. \throw SolverError if the press fails
+/// Runs the scene on one level.
+/// \throw SolverError if the press fails
 RefinementLevel run_level(const RefinementSpec& spec, const CaseSpec& scene, const std::filesystem::path& shared);
 
 /// One quantity over the levels: its difference from the finest level, and from the next finer one.
@@ -76,7 +78,8 @@ struct RefinementCurve {
   std::vector<double> orders = {};
 };
 
-/// Press force, tangential force, markers (rms), front (rms and largest). \pre all levels have the same points
+/// Press force, tangential force, markers (rms), front (rms and largest).
+/// \pre all levels have the same points
 std::vector<RefinementCurve> compare_levels(const std::vector<RefinementLevel>& levels, double factor);
 
 /// One study, as stored in its result.yaml.

@@ -40,7 +40,8 @@ struct SimulatorRun {
   std::vector<std::pair<std::string, std::string>> settings = {};  // path and value of each numerical setting
   std::optional<double> half_speed_change = std::nullopt;          // change of the markers at half speed
 
-  /// Reads a folder. \throw DataError if files do not fit together
+  /// Reads a folder.
+  /// \throw DataError if files do not fit together
   static SimulatorRun read(const std::filesystem::path& folder);
 };
 

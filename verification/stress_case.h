@@ -26,7 +26,8 @@ struct StressCase {
   Value description() const;
 };
 
-/// Draws a case. \throw DataError if its gel cannot be meshed
+/// Draws a case.
+/// \throw DataError if its gel cannot be meshed
 StressCase draw_case(const StressConfig& config, std::uint64_t seed, std::uint64_t index);
 
 /// Outcome of a case. `intersected` and `inverted` must never occur; the exact tests of the verdict detect them.
@@ -59,7 +60,8 @@ struct StressResult {
   std::optional<StressTotals> totals = {};  // absent for a grasp that ends early and leaves no frames
 
   Value::Map lines() const;
-  /// Reads the summary of a record. \throw DataError naming file and key
+  /// Reads the summary of a record.
+  /// \throw DataError naming file and key
   static StressResult read(const Record& summary);
 };
 

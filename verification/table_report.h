@@ -21,7 +21,8 @@ struct ResultFile {
   std::vector<Row> rows;
 };
 
-/// Reads a result. \throw DataError, ConfigError for a file that is not a result
+/// Reads a result.
+/// \throw DataError, ConfigError for a file that is not a result
 ResultFile read_result(const std::filesystem::path& result_yaml);
 
 /// A campaign that has one line on the page: purpose, result, and whether it holds.

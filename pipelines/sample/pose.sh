@@ -1,7 +1,7 @@
 #!/bin/bash
 # pose.sh TACIPC ASKED DECIMATE SIDE TURN: prints the sample file ASKED with the object's SIDE (+x -x +y -y +z -z)
-# pressed at its position of most relief by the record DECIMATE, turned about z by TURN degrees (a quarter turn keeps
-# the middle of the bounding box).
+# pressed. The contact is at the side's position of most relief by the record DECIMATE, turned about z by TURN degrees
+# (a quarter turn keeps the middle of the bounding box).
 set -euo pipefail
 tacipc=$1 asked=$2 decimate=$3 side=$4 turn=$5
 sides=(+x -x +y -y +z -z)

@@ -58,7 +58,8 @@ class ShardTables {
 
   explicit ShardTables(const PackedShard& shard) : folder_(shard.folder), left_(shard.planned) {}
   bool begun() const { return begun_; }
-  /// Tables at the next sample. \throw DataError if there are no more
+  /// Tables at the next sample.
+  /// \throw DataError if there are no more
   Tables& next(const std::string& id) {
     if (left_ == 0)
       throw DataError("{}: is of another plan: expected {} next (pack the shard again)",

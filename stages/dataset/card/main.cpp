@@ -74,7 +74,8 @@ void copy_origins(Stage& stage, Checksums& sums, const std::string& folder,
   stage.add_inputs(inputs);
 }
 
-/// Checks the shards. \throw DataError if one differs from the packed bytes
+/// Checks the shards.
+/// \throw DataError if one differs from the packed bytes
 void check_shards(const std::vector<PackedShard>& shards) {
   for (const PackedShard& shard : shards) {
     show_progress(static_cast<double>(&shard - shards.data()) / static_cast<double>(shards.size()), shard.name);

@@ -53,9 +53,11 @@ struct Field {
 /// All fields, in the order of schema.yaml.
 const std::vector<Field>& fields();
 
-/// Shape of one frame of a field. \pre not Absent
+/// Shape of one frame of a field.
+/// \pre not Absent
 std::vector<std::size_t> shape_of(const FieldData& data);
-/// Bytes of a frame as the file holds it: scaled, rounded, little-endian. \pre not Absent
+/// Bytes of a frame as the file holds it: scaled, rounded, little-endian.
+/// \pre not Absent
 std::string bytes_of(const Field& field, const FieldData& data);
 
 /// Attributes of the field's dataset; schema.json has the same lines.

@@ -42,7 +42,8 @@ FieldSource of_image(FrameFile file, FieldReader read) { return {text_of(file), 
 
 FieldSource of_marker_px(FieldReader read) { return {"render: " + marker_px_field().file, std::move(read), true}; }
 
-/// Maps the values of an image. \throw DataError if one of them has no new value
+/// Maps the values of an image.
+/// \throw DataError if one of them has no new value
 FieldData changed(FieldData data, double (*change)(double code)) {
   if (auto* image = std::get_if<ByteImage>(&data)) {
     std::array<std::optional<std::uint8_t>, 256> known;

@@ -20,7 +20,8 @@ std::string sensor_id_of(const PlannedRow& plan, const SampleFrames& sample);
 /// Collects the origins of a shard's samples.
 class Origins {
  public:
-  /// Adds a sample. \throw DataError if two samples use one name for different files
+  /// Adds a sample.
+  /// \throw DataError if two samples use one name for different files
   void add(const PlannedRow& plan, const std::string& sensor_id, const SampleFrames& sample);
   /// Lines `sensors`, `objects` (each with the paths and hashes of its files, relative to `folder`, the shard's
   /// folder), `versions` and `limits` (each distinct set once).

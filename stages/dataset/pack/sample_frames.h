@@ -58,7 +58,8 @@ class SampleFrames {
   const std::filesystem::path& folder() const { return folder_; }
   /// File passed to press by a flag ("sensor", "gel", "object", "sample").
   std::filesystem::path press_input(const std::string& flag) const;
-  /// Text of a configuration that press or render used. \throw DataError if it has changed since
+  /// Text of a configuration that press or render used.
+  /// \throw DataError if it has changed since
   std::string config_text(const std::string& stage, const std::string& flag) const;
   const Sensor& sensor() const { return sensor_; }
 
@@ -73,19 +74,23 @@ class SampleFrames {
   const std::optional<Record>& grasp() const { return grasp_; }
   /// \pre grasp()
   RecordLines<GraspSummary> grasp_summary() const { return summary_of<GraspSummary>(*grasp_); }
-  /// Slip times of this finger. \pre grasp()
+  /// Slip times of this finger.
+  /// \pre grasp()
   RecordLines<SlipLines> slip() const {
     return grasp_summary().section(is_right_finger() ? &GraspSummary::slip_right : &GraspSummary::slip_left);
   }
-  /// A number of the frame in the grasp's record. \pre grasp()
+  /// A number of the frame in the grasp's record.
+  /// \pre grasp()
   template <typename T>
   double grasp_number(std::size_t frame, T GraspFrameLines::*number) const {
     return grasp_per_frame_[frame].number(number);
   }
   bool is_right_finger() const { return folder_.filename() == "right"; }
-  /// Arrays of the grasp. \pre grasp()
+  /// Arrays of the grasp.
+  /// \pre grasp()
   const ArrayFolder& grasp_arrays() const { return *grasp_arrays_; }
-  /// Contact of the left (0) or right (1) finger of the grasp. \pre grasp()
+  /// Contact of the left (0) or right (1) finger of the grasp.
+  /// \pre grasp()
   FingerFront finger_front(std::size_t side, std::size_t frame) const;
   /// A number of the frame in the press's record.
   template <typename T>
@@ -96,7 +101,8 @@ class SampleFrames {
   std::optional<double> find_press_number(std::size_t frame, T PressFrameLines::*number) const {
     return per_frame_[frame].find(number);
   }
-  /// Adds the presses of an ensemble for this sample. \throw DataError as EnsembleLabels
+  /// Adds the presses of an ensemble for this sample.
+  /// \throw DataError as EnsembleLabels
   void add_ensemble(const DatasetEnsemble& ensemble);
   /// \pre add_ensemble
   const EnsembleLabels& ensemble() const { return *ensemble_; }

@@ -18,7 +18,8 @@ std::vector<std::pair<std::string, std::string>> plan_files(const DatasetConfig&
                                                             const std::vector<PlannedSample>& samples);
 
 /// Writes choices/, objects/<object>/object.yaml, and sample.yaml in the folder of each sample below `dataset`. Files
-/// with the same bytes are not rewritten, so that make redoes only changed results. \return number of samples written
+/// with the same bytes are not rewritten, so that make redoes only changed results.
+/// \return number of samples written
 int write_dataset_files(const DatasetConfig& config, const std::vector<Choice>& choices,
                         const std::vector<PlannedSample>& samples, const std::filesystem::path& dataset);
 

@@ -43,7 +43,8 @@ const std::vector<FieldForm> kObs{{"rgb", {kAny, kAny, 3}, NumberType::u8},
 /// Fields of a grasp; all are required.
 const std::vector<FieldForm> kSeries{{"time_s", {}}, {"hand_pose", {7}}, {"finger_pose", {2, 7}}, {"object_pose", {7}}};
 
-/// Checks a field. \throw DataError if it has another form, or another number of frames
+/// Checks a field.
+/// \throw DataError if it has another form, or another number of frames
 void check_form(const Hdf5Reader& shard, const std::string& group, const FieldForm& form, std::size_t frames) {
   const std::string path = fmt::format("{}/{}", group, form.name);
   const std::vector<std::size_t> shape = shard.shape(path);
@@ -99,8 +100,8 @@ class RightFingers {
     }
   }
 
-  /// Appends the right finger of the grasp whose left finger is `id`. \return false if that is not a left finger, or
-  /// has no partner
+  /// Appends the right finger of the grasp whose left finger is `id`.
+  /// \return false if that is not a left finger, or has no partner
   bool add(const std::string& id, std::vector<SampleAt>& samples) {
     const auto found = at_.find(id);
     if (found == at_.end()) return false;

@@ -33,7 +33,8 @@ class Episode {
 
   const std::string& id() const { return id_; }
   std::size_t frames() const { return frames_; }
-  /// Times of the frames, s. \throw DataError if `time_s` is not packed
+  /// Times of the frames, s.
+  /// \throw DataError if `time_s` is not packed
   const std::vector<double>& times_s() const;
   const SampleAt& sample(std::size_t finger = 0) const { return samples_[finger]; }
   bool is_grasp() const { return samples_.size() == 2; }
@@ -43,7 +44,8 @@ class Episode {
   std::string text(const std::string& attribute) const;
   /// Attribute that names a file or folder, reduced to its name.
   std::string name_of(const std::string& attribute) const;
-  /// Numbers of a field of `series` in a frame of the episode. \pre is_grasp()
+  /// Numbers of a field of `series` in a frame of the episode.
+  /// \pre is_grasp()
   std::vector<double> series(const std::string& field, std::size_t frame) const;
 
  private:

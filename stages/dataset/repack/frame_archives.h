@@ -18,7 +18,9 @@ class FrameArchives {
  public:
   FrameArchives(const std::string& shard, const OutputPath& output);
 
-  /// Adds a sample. \return number of files \throw DataError if its frames differ in form from earlier ones of its kind
+  /// Adds a sample.
+  /// \return number of files
+  /// \throw DataError if its frames differ in form from earlier ones of its kind
   std::size_t add(const SampleFiles& sample);
   void close();
 
@@ -37,7 +39,8 @@ class FrameArchives {
   std::map<std::string, std::string> keys_;  // samples by their names in archives
 };
 
-/// Writes `<id>/frame_NNNN.<name>`, and for the sample `<id>/<name>` and `<id>/sample.json`. \return number of files
+/// Writes `<id>/frame_NNNN.<name>`, and for the sample `<id>/<name>` and `<id>/sample.json`.
+/// \return number of files
 std::size_t write_folder(const SampleFiles& sample, const OutputPath& output);
 
 }  // namespace tacipc

@@ -39,7 +39,8 @@ struct Feature {
   bool in(const Episode& episode) const;
   /// Shape of the field in a frame, in LeRobot's order for images.
   std::vector<std::size_t> extents(const Episode& episode) const;
-  /// Numbers of a frame in the feature's unit. \pre not is_image()
+  /// Numbers of a frame in the feature's unit.
+  /// \pre not is_image()
   std::vector<double> frame(const Episode& episode, std::size_t frame) const;
 };
 

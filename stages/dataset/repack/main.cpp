@@ -52,7 +52,8 @@ struct RepackConfig {
   }
 };
 
-/// Writes a shard as archives, or as a folder of files for each sample. \return number of files
+/// Writes a shard as archives, or as a folder of files for each sample.
+/// \return number of files
 std::size_t repack_files(Stage& stage, const Hdf5Reader& shard, const std::string& name, bool archives) {
   const OutputPath output = [&](const std::string& file) { return stage.output(file); };
   std::optional<FrameArchives> tars;

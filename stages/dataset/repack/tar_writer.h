@@ -16,7 +16,8 @@ class TarWriter {
   explicit TarWriter(const std::filesystem::path& path);
 
   void add(const std::string& name, std::string_view bytes);
-  /// Writes the remaining data. \throw DataError if that fails (a full disk)
+  /// Writes the remaining data.
+  /// \throw DataError if that fails (a full disk)
   void close();
 
  private:

@@ -28,7 +28,8 @@ struct SheetLayout {
 };
 
 /// Picture with, per sample: name, verdict and press force; tactile image, indentation and normals in a row, or the
-/// reason why they are missing. Characters outside ASCII appear as '?'. \throw DataError if a picture cannot be read
+/// reason why they are missing. Characters outside ASCII appear as '?'.
+/// \throw DataError if a picture cannot be read
 ByteImage contact_sheet(const std::string& title, const std::vector<SampleReport>& samples);
 
 }  // namespace tacipc

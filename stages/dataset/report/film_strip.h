@@ -19,7 +19,8 @@ struct FilmStrip {
 /// True if a folder has images of all frames of a press; with fewer the animation is omitted.
 bool has_all_frames(const std::filesystem::path& render, std::size_t frames);
 
-/// Strip of at most forty frames, evenly spread, of at most 720 x 480 pixels. \throw DataError as Film and film_times
+/// Strip of at most forty frames, evenly spread, of at most 720 x 480 pixels.
+/// \throw DataError as Film and film_times
 FilmStrip film_strip(const std::vector<FilmedGel>& gels, const std::vector<double>& times_s);
 
 /// Animation as HTML. `file` is the source of the JPEG, relative to the page.

@@ -44,11 +44,13 @@ struct GraspReport {
   bool has_view = false;  // a 3-D view exists for the page
 };
 
-/// Reads a grasp. \throw DataError if the folder has no record of a grasp
+/// Reads a grasp.
+/// \throw DataError if the folder has no record of a grasp
 GraspReport read_grasp(const std::filesystem::path& folder);
 
 /// Picture with a row of images for each gel, of at most ten frames from the first to the last, with labels. `frames`
-/// are the frames of the grasp. \throw DataError if an image is missing
+/// are the frames of the grasp.
+/// \throw DataError if an image is missing
 ByteImage grasp_strip(const std::vector<SceneGel>& gels, const std::vector<GraspMoment>& frames);
 inline constexpr const char* kGraspStrip = "grasp_strip.png";
 

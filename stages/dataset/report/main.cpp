@@ -182,8 +182,8 @@ void show_robot(Stage& stage, Together& all, SceneView& view) {
   all.has_pictures = true;
 }
 
-/// Writes one view of all gels, to which the card of each gel also links. \param samples in the order of the scene's
-/// gels
+/// Writes one view of all gels, to which the card of each gel also links.
+/// \param samples in the order of the scene's gels
 void write_view_of_all(Stage& stage, Together& all, std::vector<SampleReport>& samples) {
   std::vector<ViewedSample> viewed;
   const auto read = [&] {

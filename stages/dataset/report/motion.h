@@ -27,7 +27,8 @@ std::optional<double> asked_depth_mm(const Record& sample);
 std::vector<PhaseReport> phases_of(const std::vector<std::string>& frame_names, const Record& sample);
 
 /// Frames worth showing, ascending: the last of each phase of motion and the last of all. If there are too many,
-/// `max_count` evenly spread ones, including the last. \pre frames ≥ 1, max_count ≥ 1
+/// `max_count` evenly spread ones, including the last.
+/// \pre frames ≥ 1, max_count ≥ 1
 std::vector<int> chosen_frames(const std::vector<PhaseReport>& phases, int frames, int max_count);
 
 }  // namespace tacipc

@@ -8,8 +8,8 @@
 
 namespace tacipc {
 
-/// Press force over depth: one mark per frame, joined by a line; axes in mm and N with ticks. \pre at least one frame,
-/// each with a depth
+/// Press force over depth: one mark per frame, joined by a line; axes in mm and N with ticks.
+/// \pre at least one frame, each with a depth
 std::string press_curve_svg(const std::vector<FrameReport>& frames);
 
 /// Drawings over frames for which there are numbers, each a figure of HTML with its caption: forces, contact area and

@@ -12,7 +12,8 @@
 
 namespace tacipc {
 
-/// Fills in the content of press.yaml. \throw DataError for malformed content
+/// Fills in the content of press.yaml.
+/// \throw DataError for malformed content
 void read_press_record(const Record& press, SampleReport& sample);
 
 /// \throw SolverError for the first check of `read_press_record` that fails

@@ -14,8 +14,8 @@ struct View {
   double low_y = 0.0, high_y = 1.0;
 };
 
-/// Common view of all pictures of a sample: all their markers and contacts, and a margin. \pre some picture shows
-/// something
+/// Common view of all pictures of a sample: all their markers and contacts, and a margin.
+/// \pre some picture shows something
 View view_of(const std::vector<MarkerPicture>& pictures);
 
 /// Factor by which arrows are enlarged: 1, 2 or 5 times a power of ten, so that the longest arrow just does not reach

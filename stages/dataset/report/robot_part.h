@@ -12,8 +12,8 @@
 
 namespace tacipc {
 
-/// Frames with the steps of the task as their phases. \throw DataError if the robot has other frames, or its task no
-/// steps
+/// Frames with the steps of the task as their phases.
+/// \throw DataError if the robot has other frames, or its task no steps
 std::vector<Instant> steps_over_time(const RobotReport& robot, std::vector<Instant> frames);
 
 /// Force on a pad, normal (positive into it) and along its front, N.
@@ -29,7 +29,8 @@ struct PadForces {
   std::vector<PadForce> answered, felt;  // forces computed by the press, and forces applied to the robot
   double apart_n = 0.0;                  // largest length of their difference
 };
-/// Collects the forces of all pads. \throw DataError if a pad is not a gel of the scene
+/// Collects the forces of all pads.
+/// \throw DataError if a pad is not a gel of the scene
 std::vector<PadForces> pad_forces(const RobotReport& robot, const SceneBodies& scene);
 
 /// First frame in which something presses on a gel; nothing if there is none.

@@ -39,7 +39,8 @@ struct RobotReport {
 /// Folder of the robot, below that of its scene.
 std::filesystem::path robot_folder(const std::filesystem::path& scene);
 
-/// Reads the report; nothing if the scene has no robot. \throw DataError for malformed content
+/// Reads the report; nothing if the scene has no robot.
+/// \throw DataError for malformed content
 std::optional<RobotReport> read_robot_report(const std::filesystem::path& scene);
 
 }  // namespace tacipc

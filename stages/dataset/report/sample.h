@@ -121,7 +121,8 @@ struct SampleReport {
 };
 
 /// Reads DIR/press and DIR/render, and the record of the object. A sample with missing or broken data counts as failed,
-/// with the data that could be read. \throw DataError if the folder is not a sample's
+/// with the data that could be read.
+/// \throw DataError if the folder is not a sample's
 SampleReport read_sample(const std::filesystem::path& folder);
 
 /// Marks the sample as failed, without pictures, because a picture cannot be read.

@@ -6,7 +6,8 @@
 namespace tacipc {
 
 /// Reads the scenes of --scene and writes the page and its pictures. The record counts the gels that passed and failed,
-/// as on the page of a scene. \throw DataError for a folder without a scene
+/// as on the page of a scene.
+/// \throw DataError for a folder without a scene
 void report_scenes(Stage& stage);
 
 }  // namespace tacipc

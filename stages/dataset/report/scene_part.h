@@ -20,7 +20,8 @@ struct SceneReport {
   bool has_view = false;  // a 3-D view exists for the page
 };
 
-/// Reads a scene. \throw DataError if the folder has no record of a scene
+/// Reads a scene.
+/// \throw DataError if the folder has no record of a scene
 SceneReport read_scene(const std::filesystem::path& folder);
 
 inline constexpr const char* kSceneStrip = "scene_strip.png";

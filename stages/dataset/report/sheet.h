@@ -27,10 +27,12 @@ std::string ascii(const std::string& text);
 /// Text in ASCII, shortened by dots to at most `width` pixels.
 Text fitted(Text text, int width);
 
-/// Draws the text with its left end at x and its letters on row `baseline`. \pre RGB
+/// Draws the text with its left end at x and its letters on row `baseline`.
+/// \pre RGB
 void draw_text(ByteImage& sheet, const Text& text, int x, int baseline);
 
-/// Fills a box with one colour. \pre RGB
+/// Fills a box with one colour.
+/// \pre RGB
 void fill_box(ByteImage& sheet, int x, int y, int width, int height, const Color& color);
 
 /// Largest copy that fits into the box and keeps its proportions; averaged if it is smaller than the image.

@@ -33,7 +33,8 @@ struct CheckReport {
 /// \throw DataError if the summary lacks a limit that every press has
 std::vector<CheckReport> checks_of(const RecordLines<PressSummary>& summary, const std::vector<FrameReport>& frames);
 
-/// Check that ended a press, from its failure file. \throw DataError if the file is malformed
+/// Check that ended a press, from its failure file.
+/// \throw DataError if the file is malformed
 struct FailedCheck {
   std::string message;  // empty: no message
   std::optional<CheckReport> check;

@@ -30,7 +30,8 @@ double free_bytes(const fs::path& folder) {
   return static_cast<double>(disk.f_frsize) * static_cast<double>(disk.f_bavail);
 }
 
-/// Runs a command; messages begin with `what`. \return exit code
+/// Runs a command; messages begin with `what`.
+/// \return exit code
 int run(const char* what, const std::function<int()>& body) {
   try {
     return body();

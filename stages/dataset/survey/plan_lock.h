@@ -6,10 +6,12 @@
 
 namespace tacipc {
 
-/// Waits while somebody holds the lock of the stage plan, at most ten minutes. \return true if the lock is free
+/// Waits while somebody holds the lock of the stage plan, at most ten minutes.
+/// \return true if the lock is free
 bool wait_for_plan(const std::filesystem::path& dataset);
 
-/// Path of the table. \throw DataError if there is none yet
+/// Path of the table.
+/// \throw DataError if there is none yet
 std::filesystem::path samples_table(const std::filesystem::path& dataset);
 
 /// Last component of a dataset's folder, as messages name it.

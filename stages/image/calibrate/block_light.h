@@ -39,7 +39,8 @@ class BlockTracer {
  public:
   /// Traces the gel at rest.
   BlockTracer(const Sensor& sensor, int block_px, const TraceSettings& settings);
-  /// Traces the gel under a ball. \pre `press` outlives this object
+  /// Traces the gel under a ball.
+  /// \pre `press` outlives this object
   BlockTracer(const BallPress& press, BallLabel label, int block_px, const TraceSettings& settings);
   ~BlockTracer();
   BlockTracer(BlockTracer&&) noexcept;

@@ -26,7 +26,8 @@ FloatImage reduced_blocks(const Image<Pixel>& image, int block, Reduce&& reduce)
 
 /// Midmean of each block of `block` × `block` pixels and channel: the mean over the middle half of the sorted grey
 /// levels. Dust, scratches and single markers drop out as with the median, but noise averages out below one level. NaN
-/// if one of these levels is 0 or 255, which means clipped. \pre block divides width and height
+/// if one of these levels is 0 or 255, which means clipped.
+/// \pre block divides width and height
 FloatImage block_codes(const ByteImage& image, int block);
 
 }  // namespace tacipc

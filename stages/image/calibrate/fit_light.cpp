@@ -37,7 +37,8 @@ double fitted_gap(const std::vector<Ball>& balls, const BallPress& press, const 
   return std::max(upper_median(std::move(gaps)), 1e-6);  // below the barrier's smallest gap there is no rim
 }
 
-/// Sets each contact's residual for given weights. \return residual of all samples, grey levels
+/// Sets each contact's residual for given weights.
+/// \return residual of all samples, grey levels
 double measure_misfit(const std::vector<Contact*>& contacts, const std::vector<Eigen::MatrixXd>& features,
                       const Codes& weights) {
   double squares = 0.0, count = 0.0;

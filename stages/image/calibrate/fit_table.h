@@ -19,7 +19,8 @@ SlopeTable fit_table(const std::vector<std::vector<ContactPixel>>& balls, int wi
                      const TableFit& settings);
 
 /// For each bin the index of the nearest marked bin, by (Δ inclination)² + (Δ direction)², around the circle if
-/// `around` is set; a marked bin gives itself. \pre one bin is marked
+/// `around` is set; a marked bin gives itself.
+/// \pre one bin is marked
 std::vector<std::size_t> nearest_marked(const std::vector<bool>& marked, int bins, bool around);
 
 }  // namespace tacipc

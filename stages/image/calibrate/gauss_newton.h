@@ -28,7 +28,8 @@ struct GaussNewtonResult {
 };
 
 /// Minimises |r(u)|² from `start`, with J by forward differences: (JᵀJ + λ diag JᵀJ) d = −Jᵀ r. λ grows tenfold after a
-/// step that does not decrease |r|², and falls to a tenth after one that does. \pre more residuals than parameters
+/// step that does not decrease |r|², and falls to a tenth after one that does.
+/// \pre more residuals than parameters
 GaussNewtonResult gauss_newton(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& residuals,
                                const Eigen::VectorXd& start, const GaussNewtonSettings& settings);
 

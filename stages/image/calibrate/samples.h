@@ -61,7 +61,8 @@ struct NormalEquations {
   void add(const NormalEquations& other);
   /// Part with the features first … last − 1 alone.
   NormalEquations part(Eigen::Index first, Eigen::Index last) const;
-  /// Minimises |A w − y|² + ridge Σ (AᵀA)_ii w_i² in each channel. \throw SolverError if the system is singular
+  /// Minimises |A w − y|² + ridge Σ (AᵀA)_ii w_i² in each channel.
+  /// \throw SolverError if the system is singular
   Codes solve(double ridge) const;
   /// Residual |A w − y|² of given weights, per channel.
   std::array<double, 3> residual(const Codes& weights) const;

@@ -59,8 +59,8 @@ class Problem {
   Colors colors(const Eigen::VectorXd& p) { return solve_colors(lights(p), sensor(p).response); }
 
   /// Removes blocks beyond five robust standard deviations. Sigma becomes the root mean square of the rest if that
-  /// exceeds `least`, and more if neighbouring blocks correlate, because they are then not independent. \return true if
-  /// anything changed
+  /// exceeds `least`, and more if neighbouring blocks correlate, because they are then not independent.
+  /// \return true if anything changed
   bool reweigh(const Eigen::VectorXd& p, double least) {
     const std::vector<const BlockLight*> light = lights(p);
     const Response response = sensor(p).response;
@@ -125,7 +125,8 @@ class Problem {
     return static_cast<Eigen::Index>(rows);
   }
 
-  /// Offsets of a ball's label at p, in pixels. \pre photograph k shows a ball
+  /// Offsets of a ball's label at p, in pixels.
+  /// \pre photograph k shows a ball
   Eigen::Vector3d offsets(const Eigen::VectorXd& p, std::size_t k) const {
     if (fitted_balls_ == 0) return Eigen::Vector3d::Zero();
     return label_sigma_px_ * p.segment<3>(parameters_.count() + 3 * (static_cast<Eigen::Index>(k) - 1));

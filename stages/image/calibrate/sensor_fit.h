@@ -64,8 +64,8 @@ struct SensorFit {
 SensorFit fit_sensor(const SensorParameters& parameters, const SensorFitConfig& config, const ByteImage& background,
                      const std::vector<BallPhotograph>& balls, const BallPress* press);
 
-/// Changes of the sensor file by a fit: parameters, colours with the largest of them 1, exposure, ambient, no white
-/// balance and colour matrix (the colours contain them), and the name of the photograph without contact.
+/// Changes of the sensor file by a fit: parameters, colours with the largest of them 1, exposure, ambient, and the name
+/// of the photograph without contact. White balance and colour matrix are removed, because the colours contain them.
 /// \throw DataError if all colours are 0
 std::vector<SensorChange> fitted_changes(const SensorParameters& parameters, const SensorFit& fit,
                                          const std::string& reference_image);

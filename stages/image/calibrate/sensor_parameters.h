@@ -31,7 +31,8 @@ class SensorParameters {
 
   /// Changes of the sensor file to these values.
   std::vector<SensorChange> changes(const Eigen::VectorXd& u) const;
-  /// Sensor with these values. \throw DataError if they form no valid sensor together
+  /// Sensor with these values.
+  /// \throw DataError if they form no valid sensor together
   Sensor sensor(const Eigen::VectorXd& u) const;
   /// Sensor of the unchanged file.
   const Sensor& nominal() const { return nominal_; }

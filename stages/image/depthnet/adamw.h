@@ -17,11 +17,13 @@ class AdamW {
   AdamW(std::vector<torch::Tensor> weights, double weight_decay);
 
   /// Takes one step: θ ← (1 − η λ) θ − η m̂ / (√v̂ + ε), where m̂ and v̂ are the running means of the gradient g and of
-  /// g², each divided by 1 − βᵗ after t steps, η is the rate and λ the decay. \pre a gradient for each weight
+  /// g², each divided by 1 − βᵗ after t steps, η is the rate and λ the decay.
+  /// \pre a gradient for each weight
   void step(const std::vector<torch::Tensor>& gradients, double rate);
 
   void append_to(std::string& bytes) const;
-  /// Restores the state from append_to. \throw DataError if the bytes end too early
+  /// Restores the state from append_to.
+  /// \throw DataError if the bytes end too early
   void read(ByteReader& bytes);
 
  private:

@@ -39,7 +39,8 @@ double number(const Value::Map& attributes, const std::string& name) {
   throw DataError("has no attribute {} that is a number", name);
 }
 
-/// Numbers of a field, one per frame. \throw DataError if their number differs
+/// Numbers of a field, one per frame.
+/// \throw DataError if their number differs
 std::vector<double> per_frame(const Hdf5Reader& shard, const std::string& field, std::size_t frames) {
   if (!shard.has(field)) throw DataError("has no {}: packed without", field);
   std::vector<double> numbers = from_bytes(shard.type(field), shard.read(field));
@@ -55,7 +56,9 @@ std::optional<std::size_t> closed_at(const std::vector<double>& phases) {
   return static_cast<std::size_t>(std::find_if_not(closing, phases.end(), closes) - phases.begin()) - 1;
 }
 
-/// Reads a finger's images into a grasp. \return false if there are not enough frames \throw DataError as `read_grasps`
+/// Reads a finger's images into a grasp.
+/// \return false if there are not enough frames
+/// \throw DataError as `read_grasps`
 bool take_images(GraspItem& item, std::size_t finger, const Hdf5Reader& shard, const std::string& sample,
                  std::size_t count, double judged_frame, const torch::jit::Module& network) {
   const std::string obs = sample + "/obs/", rgb = obs + "rgb";

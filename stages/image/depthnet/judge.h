@@ -17,7 +17,8 @@ class Judge {
 
   /// Adds an image to the queue. The network evaluates several queued images at once.
   void add(const DepthImage& image);
-  /// Evaluates the queued images. \throw DataError, naming the image, if the network does not accept its size
+  /// Evaluates the queued images.
+  /// \throw DataError, naming the image, if the network does not accept its size
   void answer();
 
   const std::vector<MetricsRow>& rows() const { return rows_; }

@@ -25,7 +25,8 @@ torch::jit::Module make_network(const NetworkConfig& config, std::uint64_t seed)
 
 /// Weights of the network, in the order in which they were made. They share memory with the module.
 std::vector<torch::Tensor> weights_of(const torch::jit::Module& network);
-/// A tensor's numbers. \pre f32
+/// A tensor's numbers.
+/// \pre f32
 std::vector<float> numbers_of(const torch::Tensor& tensor);
 /// Number of weights.
 std::int64_t count_weights(const torch::jit::Module& network);
@@ -47,14 +48,17 @@ struct TrainedNetwork {
   FloatImage depth_mm(const std::string& name, const ByteImage& image, const ByteImage& reference) const;
 };
 
-/// Compares an image with the images of the training. \return nothing if the network has no statistics for this size
+/// Compares an image with the images of the training.
+/// \return nothing if the network has no statistics for this size
 std::optional<LookComparison> compare(const TrainedNetwork& network, const ByteImage& image,
                                       const ByteImage& reference);
 
-/// File form of the network for images of one size. \pre the module is make_network(config, …)
+/// File form of the network for images of one size.
+/// \pre the module is make_network(config, …)
 DepthModel depth_model_of(const torch::jit::Module& module, const NetworkConfig& config, const ImageSize& size,
                           const TrainedLook* look = nullptr);
-/// Loads the network of depth_model_of for images of the files' sizes. \pre there is a file
+/// Loads the network of depth_model_of for images of the files' sizes.
+/// \pre there is a file
 /// \throw DataError, naming a file that is not such a network or holds another network than the first file
 TrainedNetwork load_network(const std::vector<std::filesystem::path>& files);
 
@@ -62,7 +66,8 @@ TrainedNetwork load_network(const std::vector<std::filesystem::path>& files);
 /// program. The same network gives the same bytes.
 void save_script(const torch::jit::Module& module, const std::filesystem::path& file);
 
-/// Copy of an image as u8 (1, H, W, 3). \pre three channels
+/// Copy of an image as u8 (1, H, W, 3).
+/// \pre three channels
 torch::Tensor tensor_of(const ByteImage& image);
 
 /// Keeps each computation of libtorch in the thread that calls it, so that results do not depend on the number of

@@ -12,7 +12,8 @@
 
 namespace tacipc {
 
-/// One frame of a packed image. \throw DataError if the field does not have this type and number of channels
+/// One frame of a packed image.
+/// \throw DataError if the field does not have this type and number of channels
 template <typename T>
 Image<T> packed_image(const Hdf5Reader& shard, const std::string& field, NumberType type, int channels,
                       std::size_t frame) {

@@ -13,11 +13,13 @@ struct Scores {
   double auc = 0.0;  // area under the ROC curve: fraction of pairs in which the positive has the higher probability
 };
 
-/// Computes the scores. \pre equal lengths, at least one positive and one negative
+/// Computes the scores.
+/// \pre equal lengths, at least one positive and one negative
 Scores scores_of(const std::vector<double>& probabilities, const std::vector<bool>& truth);
 
 /// ROC curve from (0, 0) to (1, 1): fractions of the negatives and of the positives at or above a falling probability,
-/// one point per different probability. \pre equal lengths, at least one positive and one negative
+/// one point per different probability.
+/// \pre equal lengths, at least one positive and one negative
 std::vector<std::pair<double, double>> roc_of(const std::vector<double>& probabilities, const std::vector<bool>& truth);
 
 /// Height of the curve at a fraction of the negatives, linear between two points; at a vertical part its upper end.

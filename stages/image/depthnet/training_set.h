@@ -44,7 +44,8 @@ struct DepthItem {
   torch::Tensor depth_mm;   // (1, h, w), NaN outside the gel
 };
 
-/// Reduces the image to the network's input. \throw DataError, starting with its name, if no pixel has a depth
+/// Reduces the image to the network's input.
+/// \throw DataError, starting with its name, if no pixel has a depth
 DepthItem item_of(const DepthImage& image, const torch::jit::Module& network, int reduction);
 
 }  // namespace tacipc

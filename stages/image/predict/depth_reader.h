@@ -19,7 +19,8 @@ class DepthReader {
   DepthReader(DepthReader&&) noexcept;
   DepthReader& operator=(DepthReader&&) = delete;
 
-  /// Indentation, mm. \pre three channels
+  /// Indentation, mm.
+  /// \pre three channels
   /// \throw DataError, starting with `name`, if the image does not have the network's size or that of its reference
   /// \throw DataError, with the model's name and `name`, if the prediction has numbers that are not finite
   FloatImage depth_mm(const std::string& name, const ByteImage& image, const ByteImage& reference);
@@ -30,8 +31,8 @@ class DepthReader {
   std::string model_name_;
 };
 
-/// Checks an image. \throw DataError, starting with `name`, if it does not have the network's size or that of its
-/// reference
+/// Checks an image.
+/// \throw DataError, starting with `name`, if it does not have the network's size or that of its reference
 void check_size(const DepthModel& model, const std::string& name, const ByteImage& image, const ByteImage& reference);
 
 /// Silences OpenCV and keeps it in the calling thread. To be called once, before any thread estimates depth.

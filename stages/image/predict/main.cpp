@@ -53,7 +53,8 @@ void check_flags(Stage& stage) {
       throw UsageError(fmt::format("--images: two are called {}", file.stem().string()));
 }
 
-/// Logs photographs that differ from those of the network's training. \return lines of the summary
+/// Logs photographs that differ from those of the network's training.
+/// \return lines of the summary
 Value::Map compare_with_training(Stage& stage, const DepthModel& model, const ByteImage& reference,
                                  const std::vector<ByteImage>& images) {
   const bool strict = !stage.option("--strict").empty();

@@ -34,8 +34,8 @@ struct UnitSummary {
 class Developer {
  public:
   virtual ~Developer() = default;
-  /// Takes the gel at rest; must be called first, once. \throw DataError if no light reaches it or no reference can be
-  /// made
+  /// Takes the gel at rest; must be called first, once.
+  /// \throw DataError if no light reaches it or no reference can be made
   virtual void set_reference(const TraceResult& rest) = 0;
   /// Radiance of the traced frame, without markers; empty if the sensor's light is known only in grey levels.
   virtual FloatImage radiance(const TraceResult& traced) const = 0;
@@ -47,7 +47,8 @@ class Developer {
 };
 
 /// Developer by radiance, exposure and response; for a sensor with a light field, by changes of the photograph's grey
-/// levels. \throw DataError if the configuration asks for something that a light field cannot give
+/// levels.
+/// \throw DataError if the configuration asks for something that a light field cannot give
 std::unique_ptr<Developer> make_developer(const RenderUnit& unit, const RenderConfig& config);
 
 }  // namespace tacipc

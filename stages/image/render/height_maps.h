@@ -29,8 +29,8 @@ class HeightMaps : public Deformation {
   std::vector<Vector3> shift_;  // per pixel, displacement of the point on its ray per metre of height
 };
 
-/// Reads such maps (EXR, channel Y). \throw DataError if one does not have the camera's size or has numbers that are
-/// not finite
+/// Reads such maps (EXR, channel Y).
+/// \throw DataError if one does not have the camera's size or has numbers that are not finite
 std::vector<FloatImage> read_height_maps(const std::vector<std::filesystem::path>& files, const Camera& camera);
 
 }  // namespace tacipc

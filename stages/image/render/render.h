@@ -17,7 +17,8 @@
 
 namespace tacipc {
 
-/// Photograph that the sensor names. \throw DataError if its size is not the camera's
+/// Photograph that the sensor names.
+/// \throw DataError if its size is not the camera's
 ByteImage read_reference(const std::filesystem::path& path, const Camera& camera);
 
 /// Outputs of one frame in one unit.
@@ -44,7 +45,8 @@ struct RenderSummary {
 };
 
 /// Renders frame 0 (the reference, from the gel at rest), then the requested frames, with every unit, and passes each
-/// to `deliver`. \pre the first unit needs rays
+/// to `deliver`.
+/// \pre the first unit needs rays
 /// \throw DataError if a unit without reference has no noise model, no light reaches the gel, or the camera sees none
 RenderSummary render(const std::vector<RenderUnit>& units, const RenderConfig& config, const Deformation& front,
                      const std::function<void(const RenderedFrame&)>& deliver);

@@ -11,7 +11,8 @@ struct TractionParts {
   FloatImage shear;     // s = t + p n
 };
 
-/// Splits the traction; NaN where traction or normal is NaN. \pre both have three channels and one size
+/// Splits the traction; NaN where traction or normal is NaN.
+/// \pre both have three channels and one size
 TractionParts parts_of(const FloatImage& traction, const FloatImage& normal);
 
 }  // namespace tacipc

@@ -30,10 +30,10 @@ struct DotWindow {
 /// the result until that moves by less than 10⁻³ px. The coverage is c = (1 − L / B) / C, clamped to [0, 1], with a
 /// ramp to 0 between 0.08 and 0.03, where it is noise. B is the plane fitted to the light L in the ring, without pixels
 /// 10 % darker than the previous plane, which belong to neighbours; C is the contrast in the middle of the dot. An even
-/// slope of light therefore does not shift a centre.
+/// slope of light therefore does not shift a centre. If the centre still oscillates a little after 20 rounds, the
+/// middle of the last two counts.
 /// \return nothing if the dot leaves the image, the ring has fewer than 12 pixels, the contrast is below
-/// `least_contrast`, or the centre still moves by more than 0.05 px after 20 rounds (for a smaller oscillation, the
-/// middle of the last two)
+/// `least_contrast`, or the centre still moves by more than 0.05 px after 20 rounds
 std::optional<DotCenter> dot_center(const FloatImage& light, const Eigen::Vector2d& guess_px, const DotWindow& window,
                                     double least_contrast);
 

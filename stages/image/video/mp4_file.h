@@ -13,7 +13,9 @@ namespace tacipc {
 /// file while it loads. The file has no creation times: the same frames give the same bytes.
 class Mp4File {
  public:
-  /// Opens the file. \pre even sizes \throw DataError if a library refuses the settings, or the file cannot be written
+  /// Opens the file.
+  /// \pre even sizes
+  /// \throw DataError if a library refuses the settings, or the file cannot be written
   Mp4File(const std::filesystem::path& path, int width, int height);
   ~Mp4File();
   Mp4File(const Mp4File&) = delete;
@@ -24,7 +26,9 @@ class Mp4File {
   /// \pre RGB of that size
   /// \throw DataError if it cannot be written
   void add(const ByteImage& image, double seconds);
-  /// Writes the remaining data and closes the file. \pre a frame was added \throw DataError if that fails
+  /// Writes the remaining data and closes the file.
+  /// \pre a frame was added
+  /// \throw DataError if that fails
   void close();
 
  private:

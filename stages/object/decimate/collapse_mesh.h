@@ -35,7 +35,8 @@ class CollapseMesh : public OpenMesh::TriMesh_ArrayKernelT<CollapseTraits> {
 
   /// Link condition: the ends share no neighbours except the two corners opposite to the edge. Not for boundary edges.
   bool is_collapse_ok(OpenMesh::HalfedgeHandle h);
-  /// Removes the origin of the halfedge, its edge and the adjacent faces. \pre is_collapse_ok(h)
+  /// Removes the origin of the halfedge, its edge and the adjacent faces.
+  /// \pre is_collapse_ok(h)
   void collapse(OpenMesh::HalfedgeHandle h);
 
   /// Quadric of each vertex: sum of squared distances to the planes of its own faces and of the vertices merged into

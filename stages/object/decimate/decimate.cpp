@@ -100,7 +100,8 @@ class CollapsePasses : public OpenMesh::Decimater::BaseDecimaterT<Mesh> {
  public:
   explicit CollapsePasses(Mesh& mesh) : BaseDecimaterT(mesh), mesh_(mesh), near_(mesh.n_vertices(), 0) {}
 
-  /// Stops at the target, or at a distance as large as the mesh. \return number of vertices left
+  /// Stops at the target, or at a distance as large as the mesh.
+  /// \return number of vertices left
   std::size_t collapse_to(std::size_t target, double extent) {
     std::size_t left = mesh_.n_vertices();
     for (double distance = kFirstDistance * extent; left > target && distance < extent; distance *= kFarther) {

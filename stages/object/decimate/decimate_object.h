@@ -17,7 +17,8 @@ struct DecimatedObject {
 };
 
 /// Runs mesh doctor, edge collapse, and the Hausdorff distance between input and output; then, for a sensor, selects
-/// the side to press. \throw DataError as these steps do
+/// the side to press.
+/// \throw DataError as these steps do
 DecimatedObject decimate_object(const TriangleMesh& scan, const DecimateConfig& config);
 
 }  // namespace tacipc

@@ -14,7 +14,8 @@ constexpr double kFlatRelativeHeight = 1e-9;
 /// Each pass of flips may reveal new faces without area; chains in real files are short.
 constexpr int kMaxPasses = 20;
 
-/// Merges each set into its lowest vertex. \return number of vertices removed
+/// Merges each set into its lowest vertex.
+/// \return number of vertices removed
 std::int64_t merge(DisjointSets& sets, Triangles& triangles) {
   std::int64_t merged = 0;
   for (int v = 0; v < sets.size(); ++v) merged += sets.root(v) != v ? 1 : 0;
@@ -65,7 +66,8 @@ std::int64_t drop_collapsed_faces(TriangleMesh& mesh) {
   return dropped;
 }
 
-/// Makes one pass over the faces without area. \return true if it changed something
+/// Makes one pass over the faces without area.
+/// \return true if it changed something
 bool treat_flat_faces(TriangleMesh& mesh, DoctorReport& report) {
   std::vector<int> flat;
   std::vector<Shape> shapes;

@@ -47,7 +47,8 @@ void fill_holes(TriangleMesh& mesh, const HoleLimits& limits, DoctorReport& repo
 /// inwards, and walls along the boundary.
 void thicken_open_parts(TriangleMesh& mesh, double thickness_m, DoctorReport& report);
 
-/// Removes closed parts that enclose no volume. \throw DataError if there is no other part.
+/// Removes closed parts that enclose no volume.
+/// \throw DataError if there is no other part.
 void remove_flat_parts(TriangleMesh& mesh, DoctorReport& report);
 
 /// Counts crossings and removes parts that lie wholly inside another.

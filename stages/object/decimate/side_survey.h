@@ -44,13 +44,13 @@ struct SideSurvey {
   bool uniform() const;
 };
 
-/// Surveys all six sides. The relief of a window is the length of steps of the height d that would give the same value,
+/// Surveys all six sides. The relief of a window is a length,
 ///   R = (1/d) ∫ |∇ max(0, z − z_max + d)| dA,  d = kPressDepth,
-/// without the object's outer outline: 0 on a flat face, the circumference of a stamped disc. The best window is the
-/// one of largest R, but the central one unless the best is a tenth better. `pressed` is `wanted` if that names a side;
-/// otherwise the side of most relief, but the usual side unless the other is a quarter better or shows twenty times its
-/// area. Sides with a protrusion (over 1 mm of relief, an outline that does not touch, a fifth of the largest area)
-/// precede others.
+/// without the object's outer outline. A step of height d contributes its length: a flat face gives 0, a stamped disc
+/// its circumference. The best window is the one of largest R, but the central one unless the best is a tenth better.
+/// `pressed` is `wanted` if that names a side; otherwise the side of most relief, but the usual side unless the other
+/// is a quarter better or shows twenty times its area. Sides with a protrusion (over 1 mm of relief, an outline that
+/// does not touch, a fifth of the largest area) precede others.
 SideSurvey survey_sides(const TriangleMesh& mesh, const SensorWindow& window, const std::string& wanted);
 
 /// Picture of six views in two rows: ±x above, then y and z; the pressed side has a frame and its window.

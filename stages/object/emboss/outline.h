@@ -17,7 +17,8 @@ using Distance = std::function<double(const Vector2&)>;
 double segment_distance(const Vector2& p, const Vector2& a, const Vector2& b);
 
 /// Signed distance to a closed polygon that does not cross itself: least distance to its edges, positive where the
-/// winding number is odd. Either orientation. \pre at least 3 corners
+/// winding number is odd. Either orientation.
+/// \pre at least 3 corners
 double polygon_distance(const Points2& corners, const Vector2& p);
 
 /// Corners of a regular polygon, the first one straight up, counter-clockwise, turned by `turn_rad`.

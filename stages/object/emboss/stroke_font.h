@@ -16,7 +16,8 @@ using Strokes = std::vector<Points2>;
 std::string missing_characters(std::string_view text);
 
 /// Centre lines of a line of text, centred on the origin: capitals are `height_m` high, `gap_m` lies between the centre
-/// lines of neighbouring letters. \pre the font has every character
+/// lines of neighbouring letters.
+/// \pre the font has every character
 Strokes text_strokes(std::string_view text, double height_m, double gap_m);
 
 /// Signed distance to the strokes drawn with a round pen: pen/2 − distance to the nearest stroke.

@@ -16,7 +16,8 @@ HeightField opened(const HeightField& field, double radius_m);
 HeightField rounded(const TriangleMesh& mesh, double radius_m, double spacing_m, double margin_m);
 
 /// Closed mesh of the field, cut off `relief_m` below its highest point, with walls around it and a flat floor another
-/// `relief_m` lower. \pre at least 2 × 2 points
+/// `relief_m` lower.
+/// \pre at least 2 × 2 points
 TriangleMesh solid(const HeightField& field, double relief_m);
 
 }  // namespace tacipc

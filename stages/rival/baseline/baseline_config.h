@@ -56,7 +56,8 @@ struct ForceDepth {
 
   static ForceDepth read(ConfigReader& in);
   double depth_m() const;
-  /// Displacement of an object whose frame has its origin at `object`. \pre the origin is not at the camera
+  /// Displacement of an object whose frame has its origin at `object`.
+  /// \pre the origin is not at the camera
   Vector3 way_m(const Vector3& object, const Vector3& camera) const;
 };
 

@@ -23,22 +23,26 @@ Raster exponential_kernel(double factor = 1.0);
 enum class Border { reflect_101, constant };
 
 /// Correlation Σ k(i, j) f(x + i − w/2, y + j − h/2) with the anchor at index size/2. Outside the image f is mirrored
-/// about the outermost pixel centres, or is `outside`. \pre a mirrored image is wider and higher than half the kernel
+/// about the outermost pixel centres, or is `outside`.
+/// \pre a mirrored image is wider and higher than half the kernel
 Raster correlate(const Raster& image, const Raster& kernel, Border border = Border::reflect_101, double outside = 0.0);
 
-/// Profile exp(−i²/2σ²), |i| ≤ half to the nearest whole number, divided by its sum. \pre sigma > 0
+/// Profile exp(−i²/2σ²), |i| ≤ half to the nearest whole number, divided by its sum.
+/// \pre sigma > 0
 std::vector<double> cut_gaussian_profile(double half, double sigma);
 
 /// Profile of OpenCV's Gaussian window of n pixels without a σ. n = 3, 5 and 7 use a table ([1 4 6 4 1]/16 for 5);
 /// other n use σ = 0.3 ((n − 1)/2 − 1) + 0.8, cut at ±(n − 1)/2. On pixels 1/factor times as large, it is a Gaussian
-/// whose σ (the table's standard deviation) and half width keep their length. \pre n odd, at least 3; factor > 0
+/// whose σ (the table's standard deviation) and half width keep their length.
+/// \pre n odd, at least 3; factor > 0
 std::vector<double> window_profile(int size_px, double factor);
 
 /// Correlation with profile(x) profile(y) as a separable filter, mirrored about the outermost pixel centres.
 Raster correlate_separable(const Raster& image, const std::vector<double>& profile);
 
 /// Slopes of a height into the gel along columns and rows, by central differences. Border pixels have the slopes of
-/// their inner neighbour, as in Taxim and FOTS. \pre at least 3 × 3 pixels
+/// their inner neighbour, as in Taxim and FOTS.
+/// \pre at least 3 × 3 pixels
 struct Slopes {
   Raster x, y;
 };

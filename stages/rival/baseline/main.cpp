@@ -52,7 +52,8 @@ void check_flags(const Stage& stage) {
   if (!mesh && stage.optional_input("--places")) throw UsageError("--places: moves an object, which --depth has not");
 }
 
-/// Checks that the flags match the configuration. \throw UsageError
+/// Checks that the flags match the configuration.
+/// \throw UsageError
 void check_light(const Stage& stage, const BaselineConfig& config) {
   const bool photograph = stage.optional_input("--background").has_value();
   if (photograph != config.shades())

@@ -19,7 +19,8 @@ struct Ray {
   double direction;
 };
 
-/// Darkens along one ray of the fan. \pre `list` belongs to one channel
+/// Darkens along one ray of the fan.
+/// \pre `list` belongs to one channel
 void darken(FloatImage& change, std::size_t channel, const std::vector<double>& list, const Raster& height,
             const Ray& ray, double step_px) {
   const double dx = step_px * std::cos(ray.direction), dy = step_px * std::sin(ray.direction);

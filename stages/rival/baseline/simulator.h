@@ -35,7 +35,8 @@ class BaselineSimulator {
                     const std::optional<std::filesystem::path>& light,
                     const std::optional<std::filesystem::path>& shadows = std::nullopt);
 
-  /// Sets the mesh (m) that `seen` places. \throw UsageError if its depth would refer to the front of another sensor
+  /// Sets the mesh (m) that `seen` places.
+  /// \throw UsageError if its depth would refer to the front of another sensor
   void take_object(const std::filesystem::path& mesh);
   bool has_object() const { return object_.has_value(); }
 

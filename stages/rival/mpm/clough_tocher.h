@@ -11,9 +11,9 @@ namespace tacipc {
 using Points2 = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
 /// Gradients at the points of a triangulation that minimise the bending of the cubics along its edges,
-///   Σ_edges ∫₀¹ w″(t)² dt / L³,
-/// by sweeps over the points until none changes a gradient by more than 10⁻⁶, relative to its largest component if that
-/// is above 1. Points in no triangle have zero gradients.
+///   Σ_edges ∫₀¹ w″(t)² dt / L³.
+/// The solver sweeps over the points until no gradient changes by more than 10⁻⁶, relative to its largest component if
+/// that is above 1. Points in no triangle have zero gradients.
 Points2 least_bending_gradients(const Points2& points, const Eigen::VectorXd& values, const Triangles& triangles);
 
 /// Interpolant over the triangles.

@@ -7,7 +7,8 @@
 namespace tacipc {
 
 /// Rotation R = U Vᵀ of F = U Σ Vᵀ, where U and V are rotations, so that an inverted F has one negative singular value.
-/// Defined for every finite F. \throw nothing
+/// Defined for every finite F.
+/// \throw nothing
 Matrix3 nearest_rotation(const Matrix3& F);
 
 /// Cofactors of a 3 × 3 matrix, row-major, and its determinant: F⁻ᵀ = cof F / det F.

@@ -16,7 +16,8 @@ int places(double length_m, const LatticeConfig& config) {
   return config.on_faces ? intervals + 1 : intervals;
 }
 
-/// Positive if d lies inside the circle through a, b, c. \pre a, b, c are counter-clockwise
+/// Positive if d lies inside the circle through a, b, c.
+/// \pre a, b, c are counter-clockwise
 double in_circle(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
                  const Eigen::Vector2d& d) {
   Matrix3 rows;

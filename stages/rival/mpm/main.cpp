@@ -33,7 +33,8 @@ MpmRun run_with_progress(const MpmScene& scene, double speed_factor, double befo
   });
 }
 
-/// Repeats the motion at half speed and reports the change. \throw VerdictError if it is too large
+/// Repeats the motion at half speed and reports the change.
+/// \throw VerdictError if it is too large
 SpeedEffect try_half_speed(const Sensor& sensor, const MpmScene& scene, const std::vector<Positions>& markers) {
   log_info("again at half speed");
   const MpmRun slower = run_with_progress(scene, 0.5, 1.0 / 3.0, 2.0 / 3.0);

@@ -32,7 +32,8 @@ struct MpmSetup {
 /// State of the simulation.
 class MaterialPoints {
  public:
-  /// Particles at `rest_m`, at rest; row i has id i. \pre at least one
+  /// Particles at `rest_m`, at rest; row i has id i.
+  /// \pre at least one
   MaterialPoints(const Positions& rest_m, const MpmSetup& setup);
 
   /// Places the object's points (own frame, m) where the first step begins. They move as a rigid body and move the grid
@@ -69,8 +70,8 @@ class MaterialPoints {
   /// Positions of the object's points in a pose, in cells of the whole grid.
   void object_points(const Matrix4& gel_from_object, std::vector<std::array<double, 3>>& points) const;
   void sort();
-  /// Moves the object's points by this step, after sorting if anything has drifted too far. \return largest
-  /// displacement, cells
+  /// Moves the object's points by this step, after sorting if anything has drifted too far.
+  /// \return largest displacement, cells
   double move_object(const Matrix4& gel_from_object);
   double metres_per_cell() const { return setup_.grid_spacing_m; }
   template <typename Visit>

@@ -6,7 +6,8 @@
 namespace tacipc {
 namespace {
 
-/// Root of an ascending function in [0, high], to the last bits. \pre `f(0) <= 0 <= f(high)`
+/// Root of an ascending function in [0, high], to the last bits.
+/// \pre `f(0) <= 0 <= f(high)`
 template <typename F>
 double root_of(double high, F&& f) {
   double low = 0.0;

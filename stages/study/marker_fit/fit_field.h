@@ -21,7 +21,8 @@ struct FieldErrors {
   double ratio = 0.0;      // Σ|u| / Σ|m|
 };
 
-/// Computes the errors. \pre as many columns in both
+/// Computes the errors.
+/// \pre as many columns in both
 /// \param left_out marker that does not count
 FieldErrors field_errors(const Eigen::Matrix2Xd& simulated, const Eigen::Matrix2Xd& measured, double least_length_px,
                          std::optional<Eigen::Index> left_out);

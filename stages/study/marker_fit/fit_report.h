@@ -17,7 +17,8 @@ struct FitRow {
 };
 
 /// Markdown table. Two lines follow the rows: the errors of vectors of zero length, and of the first row's own vectors
-/// rounded to whole pixels, which is the resolution of the measurement. \pre the first row has a fit
+/// rounded to whole pixels, which is the resolution of the measurement.
+/// \pre the first row has a fit
 std::string fit_table(const std::vector<FitRow>& rows, const MeasuredPressAndShear& measured,
                       const MarkerBenchmark& benchmark);
 

@@ -12,7 +12,8 @@ struct ImageError {
   double mse = 0.0;
 };
 
-/// Computes both errors. \pre equal sizes and channels, at least one pixel
+/// Computes both errors.
+/// \pre equal sizes and channels, at least one pixel
 ImageError image_error(const ByteImage& a, const ByteImage& b);
 
 /// Image corrected for a drift of the whole picture: round(level + o_c) clamped to 0 … 255 in channel c, where o_c is

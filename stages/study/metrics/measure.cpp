@@ -62,8 +62,9 @@ void check_inside(const Box& box, const ByteImage& image, const ImagePair& pair,
                   box.x + box.width, box.y + box.height);
 }
 
-/// Box of the image, if one is configured. \throw DataError if it does not fit, has no pixel with a whole window, or
-/// leaves no pixel outside for an offset that must be fitted there
+/// Box of the image, if one is configured.
+/// \throw DataError if it does not fit, has no pixel with a whole window, or leaves no pixel outside for an offset that
+/// must be fitted there
 const Box* checked_box(const ByteImage& image, const ImagePair& pair, const ImageMetrics& config) {
   if (config.boxes.empty()) return nullptr;
   const Box* box = config.box_of(pair.name);

@@ -34,7 +34,8 @@ struct SsimMap {
   std::vector<double> values;
 };
 
-/// Computes the map of one channel. \pre equal sizes and channels, both sides at least the window's
+/// Computes the map of one channel.
+/// \pre equal sizes and channels, both sides at least the window's
 SsimMap ssim_map(const ByteImage& a, const ByteImage& b, int channel, const SsimWindow& window);
 
 /// Mean of S over the pixels whose whole window lies in the image, per channel, then over channels.

@@ -23,7 +23,8 @@ Value record_of(const std::filesystem::path& path) {
   return ConfigReader::from_file(path).content();
 }
 
-/// Value of a record at a key. \throw DataError if there is none
+/// Value of a record at a key.
+/// \throw DataError if there is none
 const Value& at(const Value& record, const std::filesystem::path& path, const std::string& key) {
   const KeyPath found = follow(record, key);
   if (!found.rest.empty()) throw DataError("{}: has no {}", path.string(), key);

@@ -38,7 +38,8 @@ struct CardImages {
   double predicted_rmse_codes = 0.0;  // error of the calibration photographs, each left out of the fit
   std::vector<CardPhotograph> photographs;
 };
-/// Reads a finished comparison. \throw DataError if files are missing or lack these numbers
+/// Reads a finished comparison.
+/// \throw DataError if files are missing or lack these numbers
 CardImages read_card_images(const std::string& name, const std::filesystem::path& folder);
 
 /// The finished data sheet.

@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Records of one stage of one mesh. \throw DataError if there are none
+/// Records of one stage of one mesh.
+/// \throw DataError if there are none
 std::vector<fs::path> records_of(const std::vector<NamedPath>& records, const std::string& mesh,
                                  const std::string& stage) {
   std::vector<fs::path> out;

@@ -48,11 +48,13 @@ struct FamilyCost {
 };
 
 /// Means for each mesh, from the records given by its name: tetmesh, press and render of all presses with their
-/// timings, and metrics of depth maps. \throw DataError if a mesh lacks one of them or has two gels
+/// timings, and metrics of depth maps.
+/// \throw DataError if a mesh lacks one of them or has two gels
 std::vector<FamilyCost> read_costs(const std::vector<NamedPath>& records, const MeshTableConfig& config);
 
 /// Number of vertices at which a family has this error, by linear interpolation of log vertices over log error between
-/// its meshes. \return nothing outside the range of its meshes
+/// its meshes.
+/// \return nothing outside the range of its meshes
 std::optional<double> vertices_at(const FamilyCost& family, double error_mm);
 
 inline constexpr const char* kMeshPlot = "mesh_error.svg";

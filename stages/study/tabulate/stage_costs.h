@@ -41,7 +41,8 @@ struct Cost {
   double peak_memory_mb = 0.0;  // largest peak of all runs
 };
 
-/// One entry per row. \throw DataError if a row has no timings
+/// One entry per row.
+/// \throw DataError if a row has no timings
 std::vector<Cost> costs_of(const std::vector<std::filesystem::path>& timings, const StageCostsConfig& config);
 
 /// Markdown table with a line per row and sum (the sum of the rows' means, the largest of their memory), then the

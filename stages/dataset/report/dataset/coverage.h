@@ -16,7 +16,8 @@ struct Spread {
   double mean = 0.0, sum = 0.0;
   double low = 0.0, p5 = 0.0, median = 0.0, p95 = 0.0, high = 0.0;
 };
-/// Computes the summary; nothing without values. \pre all are finite
+/// Computes the summary; nothing without values.
+/// \pre all are finite
 std::optional<Spread> spread_of(std::vector<double> values);
 
 /// Counts in bins of equal, round width, for several groups. Bin i is [tick(i), tick(i + 1)); the last bin includes its
@@ -30,7 +31,8 @@ struct Histogram {
   std::size_t total(int bin) const;
   std::size_t largest() const;
 };
-/// Histogram over the values of all groups, with at most `max_bins` bins. \pre all are finite; max_bins ≥ 2
+/// Histogram over the values of all groups, with at most `max_bins` bins.
+/// \pre all are finite; max_bins ≥ 2
 Histogram histogram(const std::vector<std::vector<double>>& groups, int max_bins);
 
 /// Counts in cells of a plane: frequencies of pairs of numbers.

@@ -106,7 +106,8 @@ std::vector<OtherCost> other_costs(const fs::path& dataset) {
           other_cost(dataset, "pack", "shards", "")};
 }
 
-/// Writes the pages of the chosen samples, some in parallel. \return their entries for other pages
+/// Writes the pages of the chosen samples, some in parallel.
+/// \return their entries for other pages
 std::vector<SampleShot> write_sample_pages(Stage& stage, const fs::path& dataset, const std::string& name,
                                            const DatasetReportConfig& config, const std::vector<PlannedRow>& chosen) {
   constexpr std::size_t kSideBySide = 16;

@@ -21,7 +21,8 @@ class ListPages {
   ListPages(std::string dataset, std::size_t samples, std::size_t rows_per_page, std::set<std::string> with_page,
             Write write);
   void add(const SampleRow& row);
-  /// Writes the last page. \pre all rows were added
+  /// Writes the last page.
+  /// \pre all rows were added
   void finish();
 
  private:

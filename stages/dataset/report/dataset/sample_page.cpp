@@ -34,7 +34,8 @@ class PictureCopies {
     if (!label.empty()) sample_.data.emplace_back(label, picture);
     picture = folder_ / picture_name(page_.shot.plan.id, name);
   }
-  /// Adds a copy. \return its width and height
+  /// Adds a copy.
+  /// \return its width and height
   std::pair<int, int> add(const ByteImage& image, const std::string& name, int largest_px) {
     const ByteImage copy =
         std::max(image.width, image.height) > largest_px ? fitted_picture(image, largest_px, largest_px) : image;

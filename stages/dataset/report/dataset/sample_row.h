@@ -26,7 +26,8 @@ struct SampleNumbers {
   std::optional<double> min_volume_ratio = std::nullopt;
 };
 
-/// Reads timings; nothing if there is no such file. \throw DataError if it is malformed
+/// Reads timings; nothing if there is no such file.
+/// \throw DataError if it is malformed
 std::optional<StageTimings> timings_if_there(const std::filesystem::path& file);
 
 /// One sample as the dataset's pages list it.

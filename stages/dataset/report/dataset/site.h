@@ -36,7 +36,8 @@ struct Neighbour {
 };
 std::string neighbours(const std::optional<Neighbour>& before, const std::optional<Neighbour>& after);
 
-/// Links to numbered pages: the first, those near `page`, and the last. \pre page < pages
+/// Links to numbered pages: the first, those near `page`, and the last.
+/// \pre page < pages
 std::string pager(std::size_t page, std::size_t pages, std::string (*name)(std::size_t));
 
 /// Sample with a page of its own, and its entry on contact sheets and lists.

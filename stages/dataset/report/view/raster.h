@@ -20,13 +20,15 @@ struct Viewpoint {
 };
 
 /// Camera that looks along −`back` with z up, as near as possible with all `points` (m) in a picture of this `aspect`
-/// (width over height). \pre points are not empty, `back` is not upright
+/// (width over height).
+/// \pre points are not empty, `back` is not upright
 Viewpoint viewpoint_of(const std::vector<Vector3>& points, const Vector3& back, double aspect);
 
 /// Picture under construction, with a depth test per sample.
 class Raster {
  public:
-  /// Starts with a white picture. \pre width, height ≥ 1
+  /// Starts with a white picture.
+  /// \pre width, height ≥ 1
   Raster(int width, int height, const Viewpoint& from);
 
   /// Draws a mesh. Lines separate surfaces of different `body`. Parts behind the eye are cut off.

@@ -30,7 +30,8 @@ inline constexpr Color kGel{120, 190, 214}, kObject{232, 148, 72}, kSoft{140, 19
 }  // namespace picture_colors
 
 /// Viewpoint across the direction in which the first gel looks, from somewhat above. It is so near that the gels, all
-/// freely moving bodies, and the robot's parts next to them just fit at every instant. \pre the view has a gel
+/// freely moving bodies, and the robot's parts next to them just fit at every instant.
+/// \pre the view has a gel
 Viewpoint scene_viewpoint(const SceneView& view, double aspect);
 
 /// Pictures in a row, each with its label above it. `frames` are all frames of the scene.

@@ -49,7 +49,8 @@ struct SceneView {
 };
 
 /// Frames of the press that a view has: all of them, or evenly spread ones that keep its data small, including the
-/// first and the last. `front_vertices` is the sum over all gels. \pre frames ≥ 1
+/// first and the last. `front_vertices` is the sum over all gels.
+/// \pre frames ≥ 1
 std::vector<int> viewed_frames(int frames, std::size_t front_vertices);
 
 /// Pressure of every vertex, Pa: p_v = −f_v · n_v / A_v if positive, otherwise 0. A_v is a third of the area of the

@@ -15,7 +15,8 @@ struct ViewGrid {
   double step_m = 1.0;
   Eigen::Vector3i size = Eigen::Vector3i::Zero();  // number of steps to the opposite corner
 
-  /// Smallest grid around all sets. \pre no set is empty
+  /// Smallest grid around all sets.
+  /// \pre no set is empty
   static ViewGrid around(const std::vector<const Positions*>& sets);
   int steps(double coordinate_m, int axis) const;
 };
