@@ -17,7 +17,8 @@ root() { awk -v mse="$("$tacipc" table "$1/samples.csv" --columns mse)" 'BEGIN {
 {
   echo '| Setting of the first sample | Press, processor s | Press force, N |'
   echo '|---|---|---|'
-  printf '| `configs/press/default.yaml`, friction updated until consistent | %.1f | %.3f |\n' "$(seconds_of "$first/press/press")" "$(force_of "$first/press/press")"
+  printf '| `configs/press/default.yaml`, friction updated until consistent | %.1f | %.3f |\n' \
+    "$(seconds_of "$first/press/press")" "$(force_of "$first/press/press")"
   printf '| the same with `friction.lag: once`, as in the IPC code | %.1f | %.3f |\n' \
     "$(seconds_of "$choices/once/press")" "$(force_of "$choices/once/press")"
   echo
