@@ -321,52 +321,6 @@ std::string refinement_tables(const std::vector<RefinementResult>& results, cons
       out += fmt::format("- {}: {:.1f}\n", curve.quantity, fmt::join(curve.orders, ", "));
     out += '\n';
     if (const auto names = not_converging(result); !names.empty())
-      parts.push_back(fmt::format("no convergence in the {}: {}", result.parameter, fmt::join(names, ", ")));
-  }
-  if (!changes.empty())
-    parts.insert(parts.begin(), fmt::format("the last refinement changes the forces by {}", fmt::join(changes, ", ")));
-  return fmt::format("{}", fmt::join(parts, "; "));
-}
-
-std::string refinement_tables(const std::vector<RefinementResult>& results, const std::string& plots) {
-  std::string title;
-  for (const RefinementResult& result : results)
-    if (title.empty()) title = result.title;
-  std::string out = fmt::format(
-      "# Refinement\n\nWritten by `make -f Makefile.data refinement`; discussion: "
-      "[refinement](../refinement.md).\n\n{}: the last frame with one number refined, all others held.\n\n",
-      title);
-  for (const RefinementResult& result : results) {
-    if (result.failed) {
-      out += fmt::format("## {}\n\n**failed**: {}\n\n", result.study, *result.failed);
-      continue;
-    }
-    out += fmt::format("## {}\n\n| {} ({}) | Vertices |", result.parameter, result.parameter, result.unit);
-    std::string line = "|---|---|";
-    for (const RefinementCurve& curve : result.curves) {
-      if (!curve.values.empty()) out += fmt::format(" {} |", curve.quantity);
-      out += fmt::format(" {}{} |", curve.values.empty() ? curve.quantity + ", " : "", "against the finest");
-      line += curve.values.empty() ? "---|" : "---|---|";
-    }
-    out += "\n" + line + "\n";
-    for (std::size_t k = 0; k < result.parameter_values.size(); ++k) {
-      out += fmt::format("| {:.4g} | {} |", result.parameter_values[k], result.gel_vertices[k]);
-      for (const RefinementCurve& curve : result.curves) {
-        if (!curve.values.empty()) out += fmt::format(" {:.5f} {} |", curve.values[k], curve.unit);
-        out += k < curve.against_finest.size()
-                   ? fmt::format(" {:.3g} {} |", shown(curve, curve.against_finest[k]), shown_unit(curve))
-                   : " – |";
-      }
-      out += '\n';
-    }
-    out += "\nObserved order, from three successive levels each: ";
-    for (const RefinementCurve& curve : result.curves) {
-      out += curve.quantity + " ";
-      for (std::size_t i = 0; i < curve.orders.size(); ++i)
-        out += fmt::format("{}{:.1f}", i ? ", " : "", curve.orders[i]);
-      out += &curve == &result.curves.back() ? ".\n\n" : "; ";
-    }
-    if (const auto names = not_converging(result); !names.empty())
       out += fmt::format("**Missed**: the last level changes more than the second: {}.\n\n", fmt::join(names, "; "));
     out += fmt::format("![{}]({}/refinement_{}.svg)\n\n", result.parameter, plots, result.study);
   }
