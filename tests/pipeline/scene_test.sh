@@ -99,7 +99,7 @@ done
 
 changed() { sed "$2" "configs/scenes/$1.yaml" > "configs/scenes/$3.yaml"; }
 changed peg_in_hole 's/body: left/body: lift/' unknown
-refused 2 "configs/scenes/unknown.yaml:13:16: motion[0].move[0].body: 'lift' is not one of left, right, peg, hole" press five configs/scenes/unknown.yaml
+refused 2 "configs/scenes/unknown.yaml:14:16: motion[0].move[0].body: 'lift' is not one of left, right, peg, hole" press five configs/scenes/unknown.yaml
 changed peg_in_hole 's/hole\.off/gone.off/' gone
 refused 2 'body hole: mesh: configs/scenes/meshes/gone.off does not exist' press five configs/scenes/gone.yaml
 refused 2 'names '"'configs/scenes/meshes/gone.off'"', which does not exist' make -s -f Makefile.data scene SCENE=configs/scenes/gone.yaml MESH=tiny OUT=five BUILD="$build_dir" PACKAGES=no
