@@ -244,7 +244,7 @@ std::string ConfigReader::choice_or(const std::string& key, const std::string& f
 
 std::optional<std::string> ConfigReader::to_choice(const Node& node, const std::string& key,
                                                    const std::vector<std::string>& options) {
-  const auto scalar = to_scalar(node, key);
+  auto scalar = to_scalar(node, key);
   if (!scalar || std::ranges::find(options, *scalar) != options.end()) return scalar;
   const auto near = nearest_word(*scalar, options);
   add_fault(node, path_of(key),
